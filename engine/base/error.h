@@ -1,0 +1,24 @@
+// Bad files, bad options, missing devices: thrown where they are found, caught once in main, shown as one line.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace antumbra {
+
+/// The exit codes of every command.
+enum class ExitCode : int { Done = 0, CheckFailed = 1, BadInput = 2, NoDevice = 3 };
+
+/// What went wrong with which file, option or device; `code` is what the command exits with.
+struct Error : std::runtime_error
+{
+    Error(std::string what, std::string which, ExitCode code = ExitCode::BadInput)
+        : std::runtime_error(which.empty() ? what : which + ": " + what), which(std::move(which)), code(code)
+    {
+    }
+
+    std::string which;
+    ExitCode code;
+};
+
+} // namespace antumbra
