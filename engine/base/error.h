@@ -12,8 +12,8 @@ enum class ExitCode : int { Done = 0, CheckFailed = 1, BadInput = 2, NoDevice = 
 /// What went wrong with which file, option or device; `code` is what the command exits with.
 struct Error : std::runtime_error
 {
-    Error(std::string what, std::string which, ExitCode code = ExitCode::BadInput)
-        : std::runtime_error(which.empty() ? what : which + ": " + what), which(std::move(which)), code(code)
+    Error(const std::string& reason, std::string subject, ExitCode exitCode = ExitCode::BadInput)
+        : std::runtime_error(subject.empty() ? reason : subject + ": " + reason), which(std::move(subject)), code(exitCode)
     {
     }
 

@@ -30,7 +30,8 @@ uint64_t checkedSize(const Path& path, uint64_t greatestBytes)
     if (failure)
         throw Error(failure.message(), path.string());
     if (size > greatestBytes)
-        throw Error("file of " + std::to_string(size) + " bytes is larger than the limit of " + std::to_string(greatestBytes), path.string());
+        throw Error("file of " + std::to_string(size) + " bytes is larger than the limit of " + std::to_string(greatestBytes),
+                    path.string());
     return size;
 }
 
@@ -47,6 +48,13 @@ Container readWhole(const Path& path, uint64_t greatestBytes)
     return content;
 }
 
+// Returns whether every byte is in the file; errno tells why not.
+bool writeWhole(const Path& path, std::span<const std::byte> bytes)
+{
+    const OpenFile file(std::fopen(path.c_str(), "wb"));
+    return file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
+}
+
 } // namespace
 
 std::vector<std::byte> readFile(const Path& path, uint64_t greatestBytes) { return readWhole<std::vector<std::byte>>(path, greatestBytes); }
@@ -56,19 +64,22 @@ std::string readText(const Path& path, uint64_t greatestBytes) { return readWhol
 void writeFile(const Path& path, std::span<const std::byte> bytes)
 {
     std::error_code failure;
+    const auto status = std::filesystem::status(path, failure);
+    // Renaming onto a device or a pipe would put a plain file in its place.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw Error("not a regular file", path.string());
     if (path.has_parent_path())
         std::filesystem::create_directories(path.parent_path(), failure);
     const Path beside = path.string() + ".part";
-    {
-        const OpenFile file(std::fopen(beside.c_str(), "wb"));
-        if (!file)
-            throw Error(std::strerror(errno), path.string());
-        if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fflush(file.get()) != 0)
-            throw Error(std::strerror(errno), path.string());
+    if (writeWhole(beside, bytes))
+        std::filesystem::rename(beside, path, failure);
+    else
+        failure.assign(errno, std::generic_category());
+    if (failure) {
+        const std::string reason = failure.message();
+        std::filesystem::remove(beside, failure);
+        throw Error(reason, path.string());
     }
-    std::filesystem::rename(beside, path, failure);
-    if (failure)
-        throw Error(failure.message(), path.string());
 }
 
 void writeText(const Path& path, std::string_view text) { writeFile(path, std::as_bytes(std::span(text))); }

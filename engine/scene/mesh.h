@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace antumbra::scene {
@@ -17,14 +17,6 @@ struct Influence
 {
     std::array<uint16_t, 4> joints{};
     std::array<float, 4> weights{1, 0, 0, 0};
-};
-
-/// A run of triangles that share a material.
-struct Part
-{
-    uint32_t firstIndex = 0;
-    uint32_t indexCount = 0;
-    uint32_t material = kNoIndex; // kNoIndex: the default material
 };
 
 /// Offsets of the vertices [firstVertex, firstVertex + positions.size()) at weight one. `normals` is empty or as long.
@@ -43,7 +35,7 @@ struct Mesh
     std::vector<vec2> bakeUvs;         // TEXCOORD_1, or empty
     std::vector<Influence> influences; // into Model::joints
     std::vector<uint32_t> indices;     // three a triangle, counter-clockwise seen from outside
-    std::vector<Part> parts;
+    std::vector<uint32_t> triangleMaterials; // one a triangle, into Model::materials
     std::vector<MorphTarget> morphTargets;
 
     [[nodiscard]] Aabb bounds() const
@@ -55,9 +47,10 @@ struct Mesh
     }
 };
 
-/// Reorders the triangles of every part so that halving the index buffer again and again separates them well in space
-/// (axis by surface-area cost). Builders that split where the buffer does get a good tree; others do not mind.
-void orderTriangles(Mesh& mesh);
+/// Reorders the triangles so that halving the index buffer again and again separates them well in space (axis by surface-area
+/// cost). Builders that split where the buffer does get a good tree; others do not mind. `restPositions`, one a vertex, are
+/// where the vertices stand in the pose that counts: the rest pose of a model, mesh.positions of a rigid mesh.
+void orderTriangles(Mesh& mesh, std::span<const vec3> restPositions);
 
 Mesh makePlane();  // 1 x 1 m in XZ, normal +Y
 Mesh makeCube();   // edges of 1 m

@@ -1,0 +1,68 @@
+// All that the passes of one frame see: flat arrays, no World. Filled by extract, read by everybody behind it.
+#pragma once
+
+#include "base/math.h"
+#include "render/knobs.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace antumbra::render {
+
+struct CameraView
+{
+    vec3 eye{0, 1.6f, 5};                // metres
+    quat rotation{1, 0, 0, 0};           // looks along -Z
+    float verticalFovRadians = 0.8f;
+    float nearMetres = 0.05f;            // there is no far plane
+};
+
+struct EnvironmentView
+{
+    uint32_t image = 0;        // into scene::Assets::environments
+    float rotationRadians = 0; // turns the light about +Y, counter-clockwise seen from above
+    float intensity = 1;
+};
+
+/// A model at rest. Static objects keep their first term and hide no light from anyone but static samples behind them.
+struct StaticDraw
+{
+    uint32_t model = 0; // into scene::Assets::models
+    mat4 world{1};
+};
+
+/// A posed model. `slot` stays the character's as long as it lives: what the device keeps for it hangs there.
+struct CharacterDraw
+{
+    uint32_t slot = 0;
+    uint32_t model = 0;
+    mat4 world{1};
+    uint32_t firstJoint = 0; // into FrameView::joints, one a joint of the model
+    uint32_t firstMorphWeight = 0;
+    uint64_t poseVersion = 0; // changes when the pose does
+};
+
+struct FrameView
+{
+    CameraView camera;
+    EnvironmentView environment;
+    std::vector<StaticDraw> statics;
+    std::vector<CharacterDraw> characters;
+    std::vector<mat4> joints;
+    std::vector<float> morphWeights;
+    Knobs knobs;
+    float exposure = 1;
+    uint32_t splitColumn = 0; // columns left of it show the final picture, the rest knobs.view
+
+    /// Keeps the memory.
+    void clear()
+    {
+        statics.clear();
+        characters.clear();
+        joints.clear();
+        morphWeights.clear();
+    }
+};
+
+} // namespace antumbra::render

@@ -1,0 +1,32 @@
+// The surfaces the camera sees: depth, normals, albedo and the first term of their light, by rasterisation.
+#pragma once
+
+#include "graph/executor.h"
+#include "render/frame_blocks.h"
+#include "render/gpu_scene.h"
+#include "render/posing.h"
+
+namespace antumbra::render {
+
+/// All of the picture's extent. Depth is reversed: near / depth is the view depth in metres, 0 where nothing is.
+struct GBuffer
+{
+    graph::ImageRef depth;
+    graph::ImageRef normals;    // octahedral: geometric, shading; world
+    graph::ImageRef albedo;     // a: 1 for what moves
+    graph::ImageRef unshadowed; // first term of the irradiance, W/m^2; a: roughness
+};
+
+class GBufferSystem
+{
+public:
+    explicit GBufferSystem(gpu::Device& device);
+
+    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GpuScene& scene, const Posed& posed,
+                    uvec2 extent) const;
+
+private:
+    gpu::Pipeline pipeline_;
+};
+
+} // namespace antumbra::render

@@ -1,0 +1,202 @@
+#include "render/knobs.h"
+
+#include "base/error.h"
+#include "base/nearest.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+
+namespace antumbra::render {
+
+namespace {
+
+template <class Enum>
+constexpr KnobChoice choice(std::string_view name, Enum value)
+{
+    return {name, static_cast<double>(value)};
+}
+
+constexpr KnobChoice kBackends[] = {
+    choice("auto", RayBackend::Auto),
+    choice("ray-query", RayBackend::RayQuery),
+    choice("compute-bvh", RayBackend::ComputeBvh),
+};
+constexpr KnobChoice kCullings[] = {
+    choice("none", Culling::None),
+    choice("direction", Culling::Direction),
+    choice("length", Culling::Length),
+    choice("bones", Culling::Bones),
+};
+constexpr KnobChoice kScales[] = {choice("1", Scale::Full), choice("1/2", Scale::Half), choice("1/4", Scale::Quarter)};
+constexpr KnobChoice kFilters[] = {{"0", 0}, {"3", 3}, {"5", 5}, {"7", 7}, {"9", 9}};
+constexpr KnobChoice kViews[] = {
+    choice("final", ViewMode::Final),           choice("unshadowed", ViewMode::Unshadowed), choice("occluded", ViewMode::Occluded),
+    choice("difference", ViewMode::Difference), choice("cones", ViewMode::Cones),           choice("normals", ViewMode::Normals),
+    choice("reference", ViewMode::Reference),
+};
+
+template <class Field>
+void assign(Field& field, double value)
+{
+    field = static_cast<Field>(value);
+}
+
+// Reaches knobs.A.B through the pointers to members A and B.
+template <auto... Members>
+constexpr auto& field(auto& knobs)
+{
+    return (knobs.*....*Members);
+}
+
+template <auto... Members>
+constexpr KnobDescription knob(std::string_view key, std::span<const KnobChoice> choices, KnobRange range, std::string_view doc)
+{
+    return {
+        .key = key,
+        .doc = doc,
+        .choices = choices,
+        .range = range,
+        .read = [](const Knobs& knobs) { return static_cast<double>(field<Members...>(knobs)); },
+        .write = [](Knobs& knobs, double value) { assign(field<Members...>(knobs), value); },
+    };
+}
+
+template <auto... Members>
+constexpr KnobDescription knob(std::string_view key, std::span<const KnobChoice> choices, std::string_view doc)
+{
+    return knob<Members...>(key, choices, {}, doc);
+}
+
+template <auto... Members>
+constexpr KnobDescription knob(std::string_view key, KnobRange range, std::string_view doc)
+{
+    return knob<Members...>(key, {}, range, doc);
+}
+
+using Occlusion = OcclusionKnobs;
+using Reference = ReferenceKnobs;
+constexpr auto kOcclusion = &Knobs::occlusion;
+
+constexpr KnobDescription kTable[] = {
+    knob<kOcclusion, &Occlusion::backend>("occlusion.backend", kBackends, "what traces the rays; auto takes the fastest there is"),
+    knob<kOcclusion, &Occlusion::culling>("occlusion.culling", kCullings, "which rays are spared because no dynamic object can stop them"),
+    knob<kOcclusion, &Occlusion::samples>("occlusion.samples", {32, 1024, 32}, "directions a traced pixel"),
+    knob<kOcclusion, &Occlusion::scale>("occlusion.scale", kScales, "traced resolution along each axis, as a share of the frame's"),
+    knob<kOcclusion, &Occlusion::filter>("occlusion.filter", kFilters, "width of the cross-bilateral kernel in traced pixels; 0 is off"),
+    knob<kOcclusion, &Occlusion::tolerance>("occlusion.tolerance", {0, 0.1, 0}, "share of the unshadowed irradiance culling may lose"),
+    knob<kOcclusion, &Occlusion::builds>("occlusion.builds", {1, 1000, 1}, "greatest number of BLAS builds a frame"),
+    knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
+    knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),
+    knob<&Knobs::view>("view", kViews, "what the screen shows"),
+};
+
+const KnobDescription& describe(std::string_view key)
+{
+    if (const auto* found = std::ranges::find(kTable, key, &KnobDescription::key); found != std::end(kTable))
+        return *found;
+    std::vector<std::string_view> keys;
+    std::ranges::transform(kTable, std::back_inserter(keys), &KnobDescription::key);
+    throw Error(fmt::format("no such knob; the nearest is {}", nearestWord(key, keys)), std::string(key));
+}
+
+std::optional<double> parseDecimal(std::string_view text)
+{
+    double number = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(number))
+        return std::nullopt;
+    return number;
+}
+
+std::optional<double> parseNumber(std::string_view text)
+{
+    const size_t slash = text.find('/');
+    if (slash == std::string_view::npos)
+        return parseDecimal(text);
+    const auto dividend = parseDecimal(text.substr(0, slash));
+    const auto divisor = parseDecimal(text.substr(slash + 1));
+    if (!dividend || !divisor || *divisor == 0)
+        return std::nullopt;
+    return *dividend / *divisor;
+}
+
+bool names(const KnobChoice& choice, std::string_view text)
+{
+    const auto number = parseNumber(text);
+    return choice.name == text || (number && number == parseNumber(choice.name));
+}
+
+std::optional<double> parseValue(const KnobDescription& knob, std::string_view text)
+{
+    if (!knob.choices.empty()) {
+        const auto found = std::ranges::find_if(knob.choices, [text](const KnobChoice& choice) { return names(choice, text); });
+        return found != knob.choices.end() ? std::optional(found->value) : std::nullopt;
+    }
+    const auto number = parseNumber(text);
+    const auto& [least, greatest, step] = knob.range;
+    if (!number || *number < least || *number > greatest)
+        return std::nullopt;
+    if (step > 0 && std::fmod(*number - least, step) != 0)
+        return std::nullopt;
+    return number;
+}
+
+} // namespace
+
+std::span<const KnobDescription> knobTable() { return kTable; }
+
+std::string allowedValues(const KnobDescription& knob)
+{
+    if (!knob.choices.empty()) {
+        std::string allowed = "one of";
+        for (const KnobChoice& choice : knob.choices)
+            allowed += fmt::format(" {}", choice.name);
+        return allowed;
+    }
+    const auto& [least, greatest, step] = knob.range;
+    const std::string steps = step == 0 ? "" : step == 1 ? ", a whole number" : fmt::format(", in steps of {:.6g}", step);
+    return fmt::format("{:.7g} to {:.7g}{}", least, greatest, steps);
+}
+
+Knobs defaultKnobs(DeviceClass device)
+{
+    Knobs knobs;
+    if (device == DeviceClass::Cpu) {
+        knobs.occlusion.samples = 64;
+        knobs.occlusion.scale = Scale::Half;
+    }
+    return knobs;
+}
+
+void set(Knobs& knobs, std::string_view key, std::string_view value)
+{
+    const KnobDescription& knob = describe(key);
+    const auto number = parseValue(knob, value);
+    if (!number)
+        throw Error(fmt::format("takes {}, not \"{}\"", allowedValues(knob), value), std::string(key));
+    knob.write(knobs, *number);
+}
+
+std::string get(const Knobs& knobs, std::string_view key)
+{
+    const KnobDescription& knob = describe(key);
+    const double number = knob.read(knobs);
+    const auto named = std::ranges::find(knob.choices, number, &KnobChoice::value);
+    // Fields are float or whole numbers that a float holds exactly; a float's shortest form reads back to the same value.
+    return named != knob.choices.end() ? std::string(named->name) : fmt::format("{}", static_cast<float>(number));
+}
+
+Knobs resolveKnobs(DeviceClass device, const Settings& sceneFile, const Settings& commandLine)
+{
+    Knobs knobs = defaultKnobs(device);
+    for (const Settings* settings : {&sceneFile, &commandLine})
+        for (const auto& [key, value] : *settings)
+            set(knobs, key, value);
+    return knobs;
+}
+
+} // namespace antumbra::render

@@ -1,0 +1,98 @@
+// Every knob of the renderer in one table: --set, scene files, the overlay and the lab share its dotted keys and its ranges.
+// Holds settings only, never state; a method brings its own line when it comes. Cameras and scenes are not knobs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace antumbra::render {
+
+enum class RayBackend { Auto, RayQuery, ComputeBvh };
+enum class Culling { None, Direction, Length, Bones };
+enum class ViewMode { Final, Unshadowed, Occluded, Difference, Cones, Normals, Reference };
+
+/// Edge length of a traced pixel, in pixels of the frame.
+enum class Scale : uint32_t { Full = 1, Half = 2, Quarter = 4 };
+
+struct OcclusionKnobs
+{
+    RayBackend backend = RayBackend::Auto;
+    Culling culling = Culling::Bones;
+    uint32_t samples = 128;
+    Scale scale = Scale::Full;
+    uint32_t filter = 5;
+    float tolerance = 0.002f;
+    uint32_t builds = 16;
+};
+
+struct ReferenceKnobs
+{
+    uint32_t samples = 0;
+};
+
+struct CrowdKnobs
+{
+    uint32_t count = 10;
+};
+
+/// Units and ranges stand in the table.
+struct Knobs
+{
+    OcclusionKnobs occlusion;
+    ReferenceKnobs reference;
+    CrowdKnobs crowd;
+    ViewMode view = ViewMode::Final;
+};
+
+/// A value that goes by a name.
+struct KnobChoice
+{
+    std::string_view name;
+    double value;
+};
+
+/// `least`, `least` + `step` ... `greatest`; a step of 0 allows every number between.
+struct KnobRange
+{
+    double least;
+    double greatest;
+    double step;
+};
+
+/// Every knob is a number underneath: one of `choices` where there are any, else one in `range`. `write` does not check it.
+struct KnobDescription
+{
+    std::string_view key;
+    std::string_view doc;
+    std::span<const KnobChoice> choices;
+    KnobRange range;
+    double (*read)(const Knobs&);
+    void (*write)(Knobs&, double);
+};
+
+std::span<const KnobDescription> knobTable();
+
+/// As in "one of none direction length bones" and "32 to 1024, in steps of 32".
+std::string allowedValues(const KnobDescription& knob);
+
+enum class DeviceClass { Cpu, Gpu };
+Knobs defaultKnobs(DeviceClass device);
+
+/// Throws Error with the nearest known key, or with the values that are allowed; `knobs` is then unchanged.
+/// Numbers may be written as fractions: "1/2" is "0.5".
+void set(Knobs& knobs, std::string_view key, std::string_view value);
+
+/// The value as set() reads it. Throws Error for an unknown key.
+std::string get(const Knobs& knobs, std::string_view key);
+
+/// Keys and values in the order they were given; a later one wins.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// The defaults of the device, then the scene file's settings, then the command line's. Throws as set() does.
+Knobs resolveKnobs(DeviceClass device, const Settings& sceneFile, const Settings& commandLine);
+
+} // namespace antumbra::render

@@ -1,0 +1,100 @@
+// One frame: from a FrameView to a picture. Owns the render systems and the order they are declared in; knows no World and no window.
+#pragma once
+
+#include "graph/executor.h"
+#include "render/composite.h"
+#include "render/counters.h"
+#include "render/gbuffer.h"
+#include "render/gpu_scene.h"
+#include "render/overlay.h"
+#include "render/posing.h"
+#include "render/shadow/occlusion.h"
+#include "render/shadow/reference.h"
+#include "render/tonemap.h"
+
+#include <optional>
+#include <string_view>
+
+namespace antumbra::render {
+
+/// What can be read back beside the picture (DESIGN.md, Commands). Units: W/(m^2 sr), W/m^2, metres, cones a pixel.
+enum class Aov { Color, Irradiance, Unshadowed, Occluded, Albedo, Normal, Depth, Cones };
+inline constexpr uint32_t kAovCount = 8;
+
+std::optional<Aov> aovOf(std::string_view name);
+
+/// What the newest finished frame did.
+struct FrameReport
+{
+    std::span<const graph::PassTime> passes;      // in order
+    std::span<const graph::AbsentPass> absent;    // of the newest plan: culled and skipped, with reasons
+    std::optional<double> frameMilliseconds;      // first pass to last
+    shader::CounterBlock counters;
+    uint64_t frame = 0; // frames finished so far
+};
+
+struct MemoryReport
+{
+    uint64_t reserved = 0, used = 0, transient = 0, history = 0; // bytes
+    uint64_t allocationsEver = 0; // device ranges handed out since the start
+};
+
+class Renderer
+{
+public:
+    Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent);
+
+    void resize(uvec2 extent);
+    [[nodiscard]] uvec2 extent() const { return picture_.info().extent; }
+
+    /// Declares, compiles and submits one frame. `window` is an acquired swapchain image, or null; then `waitFor` and `signal` are too.
+    void render(const FrameView& view, const gpu::Image* window = nullptr, VkSemaphore waitFor = VK_NULL_HANDLE,
+                VkSemaphore signal = VK_NULL_HANDLE);
+    /// Declares and compiles without a device's help beyond what preparing the scene takes: for `antumbra graph`.
+    void declare(const FrameView& view);
+
+    /// The next frame keeps these; read them with captured() after it.
+    void capture(std::span<const Aov> aovs);
+    /// Wait for the device. Rows from the top.
+    [[nodiscard]] scene::Image8 picture();
+    [[nodiscard]] scene::ImageF captured(Aov aov);
+
+    /// Build the overlay between frames; what it draws goes into the next.
+    [[nodiscard]] Overlay& overlay() { return overlay_; }
+    [[nodiscard]] FrameReport report() const;
+    [[nodiscard]] MemoryReport memory() const;
+    /// Samples the reference has accumulated for the view as it stands.
+    [[nodiscard]] uint32_t referenceSamples() const { return reference_.samples(); }
+    [[nodiscard]] const graph::FrameGraph& frameGraph() const { return graph_; }
+    [[nodiscard]] const graph::Plan& plan() const { return plan_; }
+
+private:
+    struct Readback
+    {
+        gpu::Buffer buffer;
+        gpu::Format format = gpu::Format::Undefined;
+        uvec2 extent{0};
+    };
+
+    void declareCapture(Aov aov, graph::ImageRef image);
+
+    gpu::Device* device_;
+    GpuScene scene_;
+    FrameBlocks blocks_;
+    GBufferSystem gbuffer_;
+    PosingSystem posing_;
+    OcclusionSystem occlusion_;
+    ReferenceSystem reference_;
+    CompositeSystem composite_;
+    TonemapSystem tonemap_;
+    Overlay overlay_;
+    Counters counters_;
+    graph::FrameGraph graph_;
+    graph::Plan plan_;
+    graph::Executor executor_;
+    gpu::Image picture_; // Rgba8Unorm, sRGB-encoded
+    uint32_t captures_ = 0; // bits of Aov
+    Readback readbacks_[kAovCount];
+};
+
+} // namespace antumbra::render

@@ -1,0 +1,22 @@
+// The structs that C++ and GLSL share, in namespace shader; shaders/shared is their only definition.
+#pragma once
+
+#include "base/math.h"
+
+#include <cstdint>
+
+namespace antumbra::shader {
+
+using uint = uint32_t;
+
+#include "shaders/shared/frame.h"
+
+#include "shaders/shared/scene.h"
+
+#include "shaders/shared/skinning.h"
+
+#include "shaders/shared/occlusion.h"
+
+#include "shaders/shared/composite.h"
+
+} // namespace antumbra::shader

@@ -1,0 +1,30 @@
+// The truth beside the occlusion pass: the same integral with no culling and no filter, accumulated over frames while nothing changes.
+#pragma once
+
+#include "render/gbuffer.h"
+
+namespace antumbra::render {
+
+class ReferenceSystem
+{
+public:
+    explicit ReferenceSystem(gpu::Device& device) : device_(&device) {}
+
+    /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
+    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GpuScene& scene,
+                            const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
+    /// Accumulated for the view as it stands.
+    [[nodiscard]] uint32_t samples() const { return frames_ * samplesAFrame_; }
+
+private:
+    [[nodiscard]] static uint64_t fingerprint(const FrameView& view, uvec2 extent);
+
+    gpu::Device* device_;
+    gpu::Pipeline trace_, accumulate_;
+    graph::HistorySlot history_;
+    uint64_t seen_ = 0;
+    uint32_t frames_ = 0;
+    uint32_t samplesAFrame_ = 0;
+};
+
+} // namespace antumbra::render

@@ -1,0 +1,195 @@
+#include "scene/images.h"
+
+#include "base/error.h"
+#include "base/log.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+namespace antumbra::scene {
+
+namespace {
+
+constexpr uint64_t kGreatestSide = 16384; // pixels
+constexpr uint64_t kGreatestDecoded = uint64_t{512} << 20;
+
+/// A file format known by its first bytes; `name` is OpenImageIO's.
+struct Format
+{
+    std::string_view signature;
+    const char* name;
+    bool isRadiance;
+};
+constexpr Format kFormats[] = {
+    {"\x89PNG\r\n\x1a\n", "png", false},
+    {"\xff\xd8\xff", "jpeg", false},
+    {"\x76\x2f\x31\x01", "openexr", true},
+    {"#?", "hdr", true},
+};
+
+const Format& formatOf(std::string_view head, const std::string& name)
+{
+    for (const Format& format : kFormats)
+        if (head.starts_with(format.signature))
+            return format;
+    throw Error("not a PNG, JPEG, OpenEXR or Radiance picture", name);
+}
+
+Error readingError(OIIO::ImageInput& input, const std::string& name)
+{
+    const std::string message = input.geterror();
+    return {message.empty() ? "the picture cannot be read" : "the picture cannot be read: " + message.substr(0, message.find('\n')), name};
+}
+
+/// An open picture whose size has been found sane, before anything is allocated for it.
+class OpenPicture
+{
+public:
+    OpenPicture(const Format& format, const std::string& path, OIIO::Filesystem::IOProxy* memory, const std::string& name)
+        : input_(OIIO::ImageInput::create(format.name)), name_(name)
+    {
+        if (!input_)
+            throw Error(std::string("this build of OpenImageIO reads no ") + format.name, name);
+        OIIO::ImageSpec wishes;
+        wishes["oiio:UnassociatedAlpha"] = 1;
+        if (memory != nullptr)
+            input_->set_ioproxy(memory);
+        if (!input_->open(path, spec_, wishes))
+            throw readingError(*input_, name_);
+    }
+
+    void limit(size_t bytesPerChannel) const
+    {
+        if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels <= 0)
+            throw Error("the picture has no pixels or is not flat", name_);
+        if (uint64_t(width()) > kGreatestSide || uint64_t(height()) > kGreatestSide)
+            throw Error("the picture is larger than 16384 pixels a side", name_);
+        if (uint64_t{width()} * height() * channels() * bytesPerChannel > kGreatestDecoded)
+            throw Error("the picture takes more than 512 MiB", name_);
+    }
+
+    template <class T>
+    std::vector<T> read(OIIO::TypeDesc type)
+    {
+        std::vector<T> values(size_t{width()} * height() * channels());
+        if (!input_->read_image(0, 0, 0, spec_.nchannels, type, values.data()))
+            throw readingError(*input_, name_);
+        return values;
+    }
+
+    [[nodiscard]] uint32_t width() const { return static_cast<uint32_t>(spec_.width); }
+    [[nodiscard]] uint32_t height() const { return static_cast<uint32_t>(spec_.height); }
+    [[nodiscard]] uint32_t channels() const { return static_cast<uint32_t>(spec_.nchannels); }
+
+private:
+    OIIO::ImageInput::unique_ptr input_;
+    OIIO::ImageSpec spec_;
+    std::string name_;
+};
+
+Format formatOfFile(const Path& path)
+{
+    char head[8] = {};
+    if (!std::filesystem::exists(path))
+        throw Error("no such file", path.string());
+    if (!std::filesystem::is_regular_file(path))
+        throw Error("not a regular file", path.string());
+    std::ifstream(path, std::ios::binary).read(head, sizeof head);
+    return formatOf({head, sizeof head}, path.string());
+}
+
+ImageF loadAs(const Format& format, const Path& path)
+{
+    OpenPicture picture(format, path.string(), nullptr, path.string());
+    picture.limit(sizeof(float));
+    return {picture.width(), picture.height(), picture.channels(), picture.read<float>(OIIO::TypeDesc::FLOAT)};
+}
+
+// Grey or colour, with or without alpha, to RGBA.
+std::vector<uint8_t> widened(const std::vector<uint8_t>& values, uint32_t channels)
+{
+    const size_t pixels = values.size() / channels;
+    const bool isGrey = channels < 3;
+    const bool hasAlpha = channels == 2 || channels >= 4;
+    std::vector<uint8_t> rgba(4 * pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        const uint8_t* from = &values[i * channels];
+        uint8_t* to = &rgba[4 * i];
+        for (size_t c = 0; c < 3; ++c)
+            to[c] = from[isGrey ? 0 : c];
+        to[3] = hasAlpha ? from[isGrey ? 1 : 3] : 255;
+    }
+    return rgba;
+}
+
+void save(const Path& path, const char* format, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* pixels)
+{
+    std::vector<unsigned char> encoded;
+    OIIO::Filesystem::IOVecOutput memory(encoded);
+    const auto output = OIIO::ImageOutput::create(format);
+    if (!output || !output->set_ioproxy(&memory))
+        throw Error(std::string("this build of OpenImageIO writes no ") + format, path.string());
+    spec["oiio:UnassociatedAlpha"] = 1;
+    if (!output->open(path.string(), spec) || !output->write_image(type, pixels) || !output->close())
+        throw Error(output->geterror(), path.string());
+    writeFile(path, std::as_bytes(std::span(encoded)));
+}
+
+} // namespace
+
+ImageF loadImageF(const Path& path) { return loadAs(formatOfFile(path), path); }
+
+ImageF loadRadiance(const Path& path)
+{
+    const Format format = formatOfFile(path);
+    if (!format.isRadiance)
+        throw Error("an environment must be .hdr or .exr", path.string());
+    const ImageF picture = loadAs(format, path);
+    if (picture.channels < 3)
+        throw Error("an environment needs three channels", path.string());
+
+    ImageF radiance{picture.width, picture.height, 3, {}};
+    radiance.values.resize(3 * size_t{picture.width} * picture.height);
+    size_t scrubbed = 0;
+    for (size_t i = 0; i < radiance.values.size(); ++i) {
+        const float value = picture.values[i / 3 * picture.channels + i % 3];
+        const bool isSane = std::isfinite(value) && value >= 0;
+        radiance.values[i] = isSane ? value : 0;
+        scrubbed += isSane ? 0 : 1;
+    }
+    if (scrubbed != 0)
+        logWarning("{}: {} values were negative or not finite and are set to zero", path.string(), scrubbed);
+    return radiance;
+}
+
+Image8 decodeImage8(std::span<const std::byte> encoded, const std::string& name)
+{
+    const Format& format = formatOf({reinterpret_cast<const char*>(encoded.data()), encoded.size()}, name);
+    if (format.isRadiance)
+        throw Error("not a PNG or JPEG picture", name);
+    // The reader takes a pointer to non-const and reads only.
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(encoded.data()), encoded.size());
+    OpenPicture picture(format, std::string("memory.") + format.name, &memory, name);
+    picture.limit(4);
+    return {picture.width(), picture.height(), widened(picture.read<uint8_t>(OIIO::TypeDesc::UINT8), picture.channels())};
+}
+
+void saveExr(const Path& path, const ImageF& image)
+{
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), static_cast<int>(image.channels),
+                         OIIO::TypeDesc::FLOAT);
+    spec["compression"] = "zip";
+    save(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.values.data());
+}
+
+void savePng(const Path& path, const Image8& image)
+{
+    const OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 4, OIIO::TypeDesc::UINT8);
+    save(path, "png", spec, OIIO::TypeDesc::UINT8, image.rgba.data());
+}
+
+} // namespace antumbra::scene

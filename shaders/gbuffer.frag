@@ -1,0 +1,54 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindless.glsl"
+#include "shared/frame.h"
+#include "shared/scene.h"
+#include "lib/octahedral.glsl"
+#include "lib/sh.glsl"
+
+layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
+layout(buffer_reference, scalar) readonly buffer Instance { InstanceBlock block; };
+layout(buffer_reference, scalar) readonly buffer Materials { MaterialBlock block[]; };
+layout(buffer_reference, scalar) readonly buffer Indices { uint value[]; };
+layout(push_constant, scalar) uniform Push { GBufferDraw pc; };
+
+layout(location = 0) in vec3 positionWorld;
+layout(location = 1) in vec3 normalWorld;
+layout(location = 2) in vec2 uv;
+
+layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
+layout(location = 1) out vec4 outAlbedo; // a: 1 for what moves
+layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
+
+void main()
+{
+    Instance instance = Instance(pc.instance);
+    uint triangle = uint(gl_PrimitiveID);
+    MaterialBlock material = Materials(instance.block.materials).block[Indices(instance.block.triangleMaterials).value[triangle]];
+    vec4 base = vec4(material.albedo, material.alpha);
+    if (material.albedoImage != kNoImage)
+        base *= texture(sampler2D(sampledImages[nonuniformEXT(material.albedoImage)], samplers[kLinearRepeat]), uv);
+    if (base.a < material.alphaCutoff)
+        discard;
+
+    Frame frame = Frame(pc.frame);
+    vec3 toEye = frame.block.eye - positionWorld;
+    vec3 geometric = cross(dFdx(positionWorld), dFdy(positionWorld));
+    float squared = dot(geometric, geometric);
+    // A triangle seen edge-on has no derivatives to speak of.
+    geometric = squared > 0.0 ? geometric * inversesqrt(squared) : normalize(toEye);
+    geometric = dot(geometric, toEye) < 0.0 ? -geometric : geometric;
+    vec3 shading = dot(normalWorld, normalWorld) > 0.0 ? normalize(normalWorld) : geometric;
+    // The side that is seen is the side that is lit.
+    shading = dot(shading, geometric) < 0.0 ? -shading : shading;
+
+    float y[9];
+    shBasis3(shading, y);
+    vec3 irradiance = vec3(0.0);
+    for (int i = 0; i < 9; ++i)
+        irradiance += frame.block.irradianceSh[i] * y[i];
+
+    outNormals = vec4(octahedralFromUnit(geometric), octahedralFromUnit(shading));
+    outAlbedo = vec4(base.rgb, (instance.block.flags & kInstanceDynamic) != 0u ? 1.0 : 0.0);
+    outUnshadowed = vec4(irradiance, material.roughness);
+}

@@ -1,0 +1,43 @@
+// "Which dynamic surface is hit first, and is a static one in front?": by ray query on the scene's acceleration structure.
+#ifndef LIB_RAY_QUERY_GLSL
+#define LIB_RAY_QUERY_GLSL
+
+#extension GL_EXT_ray_query : require
+
+const float kRayFar = 1.0e30;
+
+// The distance of the closest hit among `mask`, or a negative number.
+float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direction, float far)
+{
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, accelerationStructureEXT(scene), gl_RayFlagsOpaqueEXT | flags, mask, origin, 0.0, direction, far);
+    while (rayQueryProceedEXT(query)) {
+    }
+    // Reading a hit that is not there is undefined.
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
+        return -1.0;
+    return rayQueryGetIntersectionTEXT(query, true);
+}
+
+bool dynamicHitsFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
+{
+    float dynamicAt = closestHit(scene, kMaskDynamic, gl_RayFlagsNoneEXT, origin, direction, far);
+    if (dynamicAt < 0.0)
+        return false;
+    return closestHit(scene, kMaskStatic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, dynamicAt) < 0.0;
+}
+
+// The same by one ray through everything: what a renderer without culling does. Instances carry their mask as custom index.
+bool dynamicHitsFirstOfAll(uint64_t scene, vec3 origin, vec3 direction)
+{
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, accelerationStructureEXT(scene), gl_RayFlagsOpaqueEXT, kMaskStatic | kMaskDynamic, origin, 0.0, direction,
+                          kRayFar);
+    while (rayQueryProceedEXT(query)) {
+    }
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
+        return false;
+    return uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)) == kMaskDynamic;
+}
+
+#endif

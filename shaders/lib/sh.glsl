@@ -1,0 +1,29 @@
+// Real spherical harmonics in the order of golden/README.md (Ramamoorthi and Hanrahan 2001).
+#ifndef LIB_SH_GLSL
+#define LIB_SH_GLSL
+
+// The first nine: three bands.
+void shBasis3(vec3 d, out float y[9])
+{
+    y[0] = 0.2820947918;
+    y[1] = 0.4886025119 * d.y;
+    y[2] = 0.4886025119 * d.z;
+    y[3] = 0.4886025119 * d.x;
+    y[4] = 1.0925484306 * d.x * d.y;
+    y[5] = 1.0925484306 * d.y * d.z;
+    y[6] = 0.3153915653 * (3.0 * d.z * d.z - 1.0);
+    y[7] = 1.0925484306 * d.x * d.z;
+    y[8] = 0.5462742153 * (d.x * d.x - d.y * d.y);
+}
+
+vec3 evaluateSh3(vec3 coefficients[9], vec3 d)
+{
+    float y[9];
+    shBasis3(d, y);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 9; ++i)
+        sum += coefficients[i] * y[i];
+    return sum;
+}
+
+#endif

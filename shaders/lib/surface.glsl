@@ -1,0 +1,49 @@
+// A G-buffer pixel as a point in the world. Needs shared/frame.h.
+#ifndef LIB_SURFACE_GLSL
+#define LIB_SURFACE_GLSL
+
+#include "lib/octahedral.glsl"
+
+// `pixel` is the pixel's centre in pixels; `depth` is reversed: 1 at the near plane, 0 at infinity.
+vec3 worldPosition(FrameBlock frame, vec2 pixel, float depth)
+{
+    vec3 ray = frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY;
+    return frame.eye + ray * (frame.near / depth);
+}
+
+// How far a position may be off: rounding of the depth, of the way back to the world and of the posed vertices, 2^-24 of the largest
+// term each; sixteen such steps and a micrometre.
+float positionError(vec3 position, vec3 eye)
+{
+    vec3 magnitude = abs(position) + abs(eye) + abs(position - eye);
+    return 1.0e-6 * max(magnitude.x, max(magnitude.y, magnitude.z)) + 1.0e-6;
+}
+
+// Where rays leave: on the outer side of the surface, past every error. The normal is the geometric one.
+vec3 rayOrigin(vec3 position, vec3 normalGeometric, vec3 eye) { return position + normalGeometric * (4.0 * positionError(position, eye)); }
+
+// The plane through a pixel's surface, for telling which neighbours lie on it.
+struct PixelPlane
+{
+    float alongRay; // normal . ray of the pixel
+    vec2 perPixel; // its change a pixel to the right and down
+    float depthView; // metres
+    vec3 normal;
+};
+
+PixelPlane pixelPlane(FrameBlock frame, vec2 pixel, float depth, vec3 normal)
+{
+    vec3 ray = frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY;
+    return PixelPlane(dot(normal, ray), vec2(dot(normal, frame.rayX), dot(normal, frame.rayY)), frame.near / depth, normal);
+}
+
+// 1 for a neighbour on the same plane, towards 0 off it: 2 % of the view depth away, or turned by half a right angle.
+float samePlane(PixelPlane plane, vec2 offset, float depthViewThere, vec3 normalThere)
+{
+    float distance = depthViewThere * (plane.alongRay + dot(plane.perPixel, offset)) - plane.depthView * plane.alongRay;
+    float off = distance * (50.0 / plane.depthView);
+    float turned = clamp(4.0 * dot(plane.normal, normalThere) - 3.0, 0.0, 1.0);
+    return turned / (1.0 + off * off * off * off);
+}
+
+#endif

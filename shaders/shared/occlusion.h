@@ -1,0 +1,93 @@
+// Environment light that moving objects hide.
+#ifndef SHARED_OCCLUSION_H
+#define SHARED_OCCLUSION_H
+
+const uint kCullNone = 0u;
+const uint kCullDirection = 1u;
+const uint kCullLength = 2u;
+const uint kCullBones = 3u;
+
+const uint kMaskStatic = 1u;
+const uint kMaskDynamic = 2u;
+
+// The mask table: octahedral axis x half angle -> samples that may lie in such a cone (methods/conical-culling.md).
+const uint kMaskAxisCells = 32u;
+const uint kMaskAngleCells = 16u;
+
+// One character, in the world.
+struct BlockerBlock
+{
+    vec3 centre;
+    float radius;
+    uint firstCapsule;
+    uint capsuleCount;
+};
+
+// A character's bounds on their way from its own space to the world.
+struct BlockerSource
+{
+    mat4 worldFromLocal;
+    uint64_t sphere; // SphereBlock
+    uint64_t capsules; // CapsuleBlock[capsuleCount]
+    uint firstCapsule;
+    uint capsuleCount;
+    float scale; // the greatest of worldFromLocal
+    uint padding;
+};
+
+struct BlockerDispatch
+{
+    uint64_t sources; // BlockerSource[]
+    uint64_t blockers; // BlockerBlock[], written
+    uint64_t capsules; // CapsuleBlock[], written
+};
+
+struct OcclusionTrace
+{
+    uint64_t frame;
+    uint64_t scene; // top-level acceleration structure
+    uint64_t samples; // vec4[sampleCount], local directions
+    uint64_t masks; // uvec4[cell][sampleCount / 128]
+    uint64_t blockers; // BlockerBlock[blockerCount]
+    uint64_t capsules; // CapsuleBlock[]
+    uint64_t counters; // CounterBlock
+    uint depth;
+    uint normals;
+    uint occluded; // rgb: W/m^2; a: cones
+    uint sampleCount;
+    uint blockerCount;
+    float tolerance; // share of the unshadowed irradiance a cone may at most hide to be left out
+    float pixelScale; // of the occlusion image to the G-buffer: 1, 2, 4
+    uint frameIndex; // of the reference's accumulation
+};
+
+struct OcclusionFilter
+{
+    uint64_t frame;
+    uint depth;
+    uint normals;
+    uint occluded;
+    uint filtered;
+    int radius; // pixels
+    float pixelScale;
+};
+
+struct OcclusionUpsample
+{
+    uint64_t frame;
+    uint depth;
+    uint normals;
+    uint coarse;
+    uint occluded;
+    float pixelScale;
+};
+
+struct ReferenceAccumulate
+{
+    uint now; // written
+    uint before;
+    uint traced;
+    uint frameCount; // frames summed in `before`
+};
+
+#endif
