@@ -13,10 +13,8 @@ void main()
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(storageImages[pc.now]))))
         return;
-    vec4 mean = texelFetch(sampledImages[pc.traced], pixel, 0);
-    if (pc.frameCount > 0u) {
-        vec4 before = texelFetch(sampledImages[pc.before], pixel, 0);
-        mean = before + (mean - before) / float(pc.frameCount + 1u);
-    }
+    vec4 mean = pc.frameCount > 0u ? texelFetch(sampledImages[pc.before], pixel, 0) : vec4(0.0);
+    if (pc.traced != kNothingTraced)
+        mean += (texelFetch(sampledImages[pc.traced], pixel, 0) - mean) / float(pc.frameCount + 1u);
     imageStore(storageImages[pc.now], pixel, mean);
 }

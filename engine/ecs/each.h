@@ -82,7 +82,7 @@ private:
     Each(const World& world, Begun) : world_(world), columns_(detail::Term<Terms>(world)...)
     {
         ++world_.livingEaches_;
-        std::apply([this](const auto&... columns) { (leadIfSmaller(columns), ...); }, columns_);
+        std::apply([this](const auto&... columns) { (this->leadIfSmaller(columns), ...); }, columns_);
         led_ = leader_->entities();
     }
 

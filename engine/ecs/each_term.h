@@ -31,12 +31,7 @@ Access accessTo()
 
 namespace detail {
 
-enum class Presence
-{
-    Required,
-    Refused,
-    Any
-};
+enum class Presence { Required, Refused, Any };
 
 inline const EntitySet kEmptySet;
 
@@ -101,12 +96,12 @@ struct Term<Entity>
     static constexpr Presence kPresence = Presence::Any;
     static constexpr bool kTouchesValues = false;
 
-    explicit Term(const World& world) : generations(world.generations_.data()) {}
+    explicit Term(const World& world) : generations(&world.generations_) {}
     [[nodiscard]] static uint32_t locate(uint32_t entity) { return entity; }
     [[nodiscard]] static bool accepts(uint32_t) { return true; }
-    std::tuple<Entity> yield(uint32_t entity) const { return {Entity{entity, generations[entity]}}; }
+    std::tuple<Entity> yield(uint32_t entity) const { return {Entity{entity, (*generations)[entity]}}; }
 
-    const uint32_t* generations;
+    const std::vector<uint32_t>* generations; // may grow during the loop
 };
 
 template <class T>

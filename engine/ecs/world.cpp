@@ -45,11 +45,4 @@ AnyStore& World::addStore(uint32_t type, std::unique_ptr<AnyStore> store)
     return *stores_[type];
 }
 
-World::Resource& World::resourceAt(uint32_t type)
-{
-    while (resources_.size() <= type)
-        resources_.emplace_back(nullptr, [](void*) {});
-    return resources_[type];
-}
-
 } // namespace antumbra::ecs

@@ -4,7 +4,7 @@
 
 #include "ecs/component_store.h"
 #include "ecs/entity.h"
-#include "ecs/type_index.h"
+#include "ecs/resources.h"
 
 namespace antumbra::ecs {
 
@@ -103,21 +103,18 @@ public:
     template <class T>
     T& setResource(T value)
     {
-        Resource& resource = resourceAt(typeIndex<T>());
-        resource = Resource(new T(std::move(value)), [](void* held) { delete static_cast<T*>(held); });
-        return *static_cast<T*>(resource.get());
+        return resources_.set(std::move(value));
     }
+    /// The resource must have been set.
     template <class T>
     [[nodiscard]] const T& resource() const
     {
-        const uint32_t type = typeIndex<T>();
-        check(type < resources_.size() && resources_[type], "a resource that was set");
-        return *static_cast<const T*>(resources_[type].get());
+        return resources_.get<T>();
     }
     template <class T>
     [[nodiscard]] T& resource()
     {
-        return const_cast<T&>(std::as_const(*this).template resource<T>());
+        return const_cast<T&>(resources_.get<T>());
     }
 
 private:
@@ -127,7 +124,6 @@ private:
     friend struct detail::Column;
     template <class T>
     friend struct detail::Term;
-    using Resource = std::unique_ptr<void, void (*)(void*)>;
 
     template <class T>
     [[nodiscard]] ComponentStore<T>* findStore() const
@@ -143,13 +139,12 @@ private:
         return static_cast<ComponentStore<T>&>(addStore(typeIndex<T>(), std::make_unique<ComponentStore<T>>()));
     }
     AnyStore& addStore(uint32_t type, std::unique_ptr<AnyStore> store);
-    Resource& resourceAt(uint32_t type);
     void checkNotIterating() const { check(livingEaches_ == 0, "no change of components while an Each lives: use Commands"); }
 
     std::vector<uint32_t> generations_; // odd: alive
     std::vector<uint32_t> free_;
     std::vector<std::unique_ptr<AnyStore>> stores_; // by typeIndex, null where no entity ever had the component
-    std::vector<Resource> resources_;               // by typeIndex
+    Resources resources_;
     mutable uint32_t livingEaches_ = 0;
 };
 

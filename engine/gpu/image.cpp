@@ -82,6 +82,12 @@ Image::Image(Device& device, std::string_view label, const ImageInfo& info, cons
     createView(label);
 }
 
+Image::Image(Device& device, std::string_view label, const ImageInfo& info, VkImage borrowed)
+    : device_(&device), image_(borrowed), info_(info), isBorrowed_(true)
+{
+    createView(label);
+}
+
 void Image::createView(std::string_view label)
 {
     const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
@@ -102,7 +108,8 @@ Image::~Image()
     if (device_ == nullptr)
         return;
     device_->retire({VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(view_), {}, sampledSlot_, storageSlot_});
-    device_->retire({VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image_), allocation_});
+    if (!isBorrowed_)
+        device_->retire({VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image_), allocation_});
 }
 
 void Image::swap(Image& other) noexcept
@@ -111,6 +118,7 @@ void Image::swap(Image& other) noexcept
     std::swap(image_, other.image_);
     std::swap(view_, other.view_);
     std::swap(info_, other.info_);
+    std::swap(isBorrowed_, other.isBorrowed_);
     std::swap(allocation_, other.allocation_);
     std::swap(sampledSlot_, other.sampledSlot_);
     std::swap(storageSlot_, other.storageSlot_);

@@ -24,6 +24,8 @@ public:
     Image(Device& device, std::string_view label, const ImageInfo& info);
     /// In memory that somebody else holds for longer, at `offset` bytes; for aliasing.
     Image(Device& device, std::string_view label, const ImageInfo& info, const Allocation& within, VkDeviceSize offset);
+    /// A view of an image that somebody else owns, such as a swapchain, and that outlives it.
+    Image(Device& device, std::string_view label, const ImageInfo& info, VkImage borrowed);
     ~Image();
     Image(Image&& other) noexcept { swap(other); }
     Image& operator=(Image&& other) noexcept
@@ -51,6 +53,7 @@ private:
     VkImage image_ = VK_NULL_HANDLE;
     VkImageView view_ = VK_NULL_HANDLE;
     ImageInfo info_{};
+    bool isBorrowed_ = false;
     Allocation allocation_{};
     uint32_t sampledSlot_ = kNoSlot;
     uint32_t storageSlot_ = kNoSlot;

@@ -6,6 +6,7 @@
 #include "render/gpu_scene.h"
 #include "render/shader_structs.h"
 
+#include <optional>
 #include <vector>
 
 namespace antumbra::render {
@@ -31,7 +32,7 @@ private:
 
     gpu::Device* device_;
     const scene::Assets* assets_;
-    std::vector<bake::ShFunction> projections_; // one an environment; empty until asked for
+    std::vector<std::optional<bake::ShFunction>> projections_; // one an environment, made when asked for
 };
 
 } // namespace antumbra::render

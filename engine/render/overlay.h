@@ -6,8 +6,6 @@
 #include "gpu/pipeline.h"
 #include "graph/frame_graph.h"
 
-#include <memory>
-
 struct ImGuiContext;
 
 namespace antumbra::render {
@@ -15,27 +13,28 @@ namespace antumbra::render {
 class Overlay
 {
 public:
+    /// Makes its ImGui context the current one.
     explicit Overlay(gpu::Device& device);
     ~Overlay();
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
-    /// Opens ImGui's frame for a picture of `extent` pixels, `seconds` after the last. Makes font image and pipeline at first use.
+    /// Opens ImGui's frame for a picture of `extent` pixels, `seconds` after the last.
     void begin(uvec2 extent, float seconds);
-    /// Closes it; the next rendered frame draws it, once.
+    /// Closes it; the next rendered frame draws it, once. Makes font image and pipeline when there first is something to draw.
     void end();
 
-    /// Draws what end() left, or declares nothing (the plan says why).
+    /// After Device::beginFrame. Draws what end() left onto `picture` (display values, sRGB-encoded) and returns its new version,
+    /// or declares nothing: the plan says why.
     graph::ImageRef declare(graph::FrameGraph& graph, graph::ImageRef picture);
 
 private:
     void makeDeviceParts();
 
     gpu::Device* device_;
-    ImGuiContext* context_ = nullptr;
+    ImGuiContext* context_;
     gpu::Image font_;
     gpu::Pipeline pipeline_;
-    gpu::Buffer vertices_[gpu::kFramesInFlight], indices_[gpu::kFramesInFlight];
     bool isPending_ = false;
 };
 

@@ -50,8 +50,6 @@ public:
     /// Declares, compiles and submits one frame. `window` is an acquired swapchain image, or null; then `waitFor` and `signal` are too.
     void render(const FrameView& view, const gpu::Image* window = nullptr, VkSemaphore waitFor = VK_NULL_HANDLE,
                 VkSemaphore signal = VK_NULL_HANDLE);
-    /// Declares and compiles without a device's help beyond what preparing the scene takes: for `antumbra graph`.
-    void declare(const FrameView& view);
 
     /// The next frame keeps these; read them with captured() after it.
     void capture(std::span<const Aov> aovs);
@@ -69,6 +67,9 @@ public:
     [[nodiscard]] const graph::Plan& plan() const { return plan_; }
 
 private:
+    /// The frame, top to bottom; what the view lacks declares nothing.
+    void declare(const FrameView& view);
+
     struct Readback
     {
         gpu::Buffer buffer;
@@ -93,7 +94,8 @@ private:
     graph::Plan plan_;
     graph::Executor executor_;
     gpu::Image picture_; // Rgba8Unorm, sRGB-encoded
-    uint32_t captures_ = 0; // bits of Aov
+    uint32_t captures_ = 0;  // bits of Aov
+    float nearMetres_ = 0;   // of the newest frame, for reading depth back
     Readback readbacks_[kAovCount];
 };
 

@@ -19,4 +19,6 @@ using uint = uint32_t;
 
 #include "shaders/shared/composite.h"
 
+#include "shaders/shared/overlay.h"
+
 } // namespace antumbra::shader

@@ -83,15 +83,9 @@ quat rotationAt(const Track& track, const KeyInterval& keys)
 void apply(LocalPose& pose, const Track& track, const KeyInterval& keys)
 {
     switch (track.channel) {
-    case Channel::Translation:
-        pose.nodes[track.target].translation = vectorAt(track, keys);
-        break;
-    case Channel::Rotation:
-        pose.nodes[track.target].rotation = rotationAt(track, keys);
-        break;
-    case Channel::Scale:
-        pose.nodes[track.target].scale = vectorAt(track, keys);
-        break;
+    case Channel::Translation: pose.nodes[track.target].translation = vectorAt(track, keys); break;
+    case Channel::Rotation: pose.nodes[track.target].rotation = rotationAt(track, keys); break;
+    case Channel::Scale: pose.nodes[track.target].scale = vectorAt(track, keys); break;
     case Channel::MorphWeights:
         for (uint32_t i = 0; i < track.width; ++i)
             pose.morphWeights[track.target + i] = valueAt(track, keys, i);
@@ -198,6 +192,16 @@ Mesh posedMesh(const Model& model, std::span<const mat4> jointMatrices, std::spa
     posed.morphTargets.clear();
     posed.influences.clear();
     return posed;
+}
+
+Mesh restMesh(const Model& model)
+{
+    LocalPose pose;
+    setRest(pose, model);
+    std::vector<mat4> jointMatrices(model.joints.size());
+    std::vector<mat4> nodeToModel;
+    resolve(jointMatrices, nodeToModel, pose, model);
+    return posedMesh(model, jointMatrices, pose.morphWeights);
 }
 
 } // namespace antumbra::scene

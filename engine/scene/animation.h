@@ -23,6 +23,9 @@ void blend(LocalPose& pose, const LocalPose& towards, float share);
 void resolve(std::span<mat4> jointMatrices, std::vector<mat4>& nodeToModel, const LocalPose& pose, const Model& model);
 
 /// Poses the mesh on the CPU: what the skinning shader does, for loading static models and for tests.
+/// Normals turn by the cofactors of the joint matrix, so that mirrored and flattened parts keep facing outwards.
 Mesh posedMesh(const Model& model, std::span<const mat4> jointMatrices, std::span<const float> morphWeights);
+/// The mesh as it stands in the rest pose: static models, bounds.
+Mesh restMesh(const Model& model);
 
 } // namespace antumbra::scene

@@ -96,8 +96,19 @@ std::string oneLine(std::string text)
 {
     constexpr size_t kLongest = 300;
     text.resize(std::min(text.size(), kLongest));
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
     return text;
+}
+
+// Only of files that loaded: one that is refused ends in one line.
+void warn(const Model& model, const tinygltf::Model& file, const Path& path)
+{
+    if (model.mesh.indices.empty())
+        logWarning("{}: nothing in it is made of triangles", path.string());
+    for (size_t i = 0; i < file.buffers.size(); ++i)
+        if (file.buffers[i].data.empty())
+            logWarning("{}: buffers[{}] has no data and reads as zeros", path.string(), i);
 }
 
 } // namespace
@@ -106,10 +117,10 @@ Model loadGltf(const Path& path)
 {
     const std::vector<std::byte> bytes = readFile(path, kGreatestFile);
     try {
-        Model model = build(readChecked(bytes, path.parent_path().empty() ? Path(".") : path.parent_path()));
+        const tinygltf::Model file = readChecked(bytes, path.has_parent_path() ? path.parent_path() : Path("."));
+        Model model = build(file);
         model.name = path.stem().string();
-        if (model.mesh.indices.empty())
-            logWarning("{}: nothing in it is made of triangles", path.string());
+        warn(model, file, path);
         return model;
     } catch (const Error& error) {
         throw Error(oneLine(error.what()), path.string());

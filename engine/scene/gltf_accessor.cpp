@@ -20,18 +20,12 @@ double valueAt(const unsigned char* bytes)
 double componentAt(const unsigned char* bytes, int componentType)
 {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return valueAt<int8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return valueAt<uint8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return valueAt<int16_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return valueAt<uint16_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return valueAt<uint32_t>(bytes);
-    default:
-        return valueAt<float>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return valueAt<int8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return valueAt<uint8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return valueAt<int16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return valueAt<uint16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return valueAt<uint32_t>(bytes);
+    default: return valueAt<float>(bytes);
     }
 }
 
@@ -69,14 +63,10 @@ void overwriteSparse(std::vector<double>& values, const tinygltf::Model& file, c
 double greatestOf(int componentType)
 {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return 127;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return 255;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return 32767;
-    default:
-        return 65535;
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return 127;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 255;
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return 32767;
+    default: return 65535;
     }
 }
 
@@ -87,8 +77,7 @@ ElementLayout layoutOf(const tinygltf::Accessor& accessor)
     ElementLayout layout;
     layout.componentSize = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType)));
     const auto components = static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)));
-    const bool isMatrix =
-        accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3 || accessor.type == TINYGLTF_TYPE_MAT4;
+    const bool isMatrix = accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3 || accessor.type == TINYGLTF_TYPE_MAT4;
     layout.columns = !isMatrix ? 1 : components == 4 ? 2 : components == 9 ? 3 : 4;
     layout.rows = components / layout.columns;
     const size_t columnSize = layout.rows * layout.componentSize;
@@ -128,9 +117,8 @@ std::vector<float> readFloats(const tinygltf::Model& file, const tinygltf::Acces
     const std::vector<double> raw = readRaw(file, accessor);
     std::vector<float> floats(raw.size());
     const double scale = accessor.normalized ? 1 / greatestOf(accessor.componentType) : 1;
-    std::transform(raw.begin(), raw.end(), floats.begin(), [&](double value) {
-        return static_cast<float>(accessor.normalized ? std::max(value * scale, -1.0) : value);
-    });
+    std::transform(raw.begin(), raw.end(), floats.begin(),
+                   [&](double value) { return static_cast<float>(accessor.normalized ? std::max(value * scale, -1.0) : value); });
     return floats;
 }
 

@@ -31,9 +31,9 @@ void addClips(Model& model, const Placement& placement, const tinygltf::Model& f
 struct TriangleList
 {
     std::vector<vec3> positions;
-    std::vector<vec3> normals; // made flat where the file has none
-    std::vector<vec2> uvs;     // those of the base colour texture, its transform applied
-    std::vector<vec2> bakeUvs; // TEXCOORD_1, or empty
+    std::vector<vec3> normals;         // made flat where the file has none
+    std::vector<vec2> uvs;             // those of the base colour texture, its transform applied
+    std::vector<vec2> bakeUvs;         // TEXCOORD_1, or empty
     std::vector<Influence> influences; // into the skin's joints, or empty
     std::vector<uint32_t> indices;
     std::vector<std::vector<vec3>> morphPositions; // one a target, empty where the target does not move positions

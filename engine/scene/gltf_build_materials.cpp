@@ -30,7 +30,8 @@ public:
             return kNoIndex;
         uint32_t& image = decoded_[static_cast<size_t>(source)];
         if (image == kNoIndex) {
-            model_.images.push_back(decodeImage8(std::as_bytes(std::span(at(file_.images, source).image)), fmt::format("images[{}]", source)));
+            model_.images.push_back(
+                decodeImage8(std::as_bytes(std::span(at(file_.images, source).image)), fmt::format("images[{}]", source)));
             image = static_cast<uint32_t>(model_.images.size() - 1);
         }
         return image;
@@ -42,7 +43,10 @@ private:
     std::vector<uint32_t> decoded_;
 };
 
-vec3 colourOf(const std::vector<double>& factor, vec3 fallback) { return factor.empty() ? fallback : vec3(factor[0], factor[1], factor[2]); }
+vec3 colourOf(const std::vector<double>& factor, vec3 fallback)
+{
+    return factor.empty() ? fallback : vec3(factor[0], factor[1], factor[2]);
+}
 
 Material materialOf(const tinygltf::Material& source, ImageUse& images)
 {

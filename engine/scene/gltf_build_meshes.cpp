@@ -201,16 +201,6 @@ private:
     uint32_t rigidJoint_ = kNoIndex;    // of the node in hand
 };
 
-void orderInRestPose(Model& model)
-{
-    LocalPose pose;
-    setRest(pose, model);
-    std::vector<mat4> jointMatrices(model.joints.size());
-    std::vector<mat4> nodeToModel;
-    resolve(jointMatrices, nodeToModel, pose, model);
-    orderTriangles(model.mesh, posedMesh(model, jointMatrices, pose.morphWeights).positions);
-}
-
 } // namespace
 
 void addMeshes(Model& model, Placement& placement, const tinygltf::Model& file)
@@ -220,7 +210,7 @@ void addMeshes(Model& model, Placement& placement, const tinygltf::Model& file)
         merge.addTree(root);
     if (model.joints.empty())
         model.joints.push_back({});
-    orderInRestPose(model);
+    orderTriangles(model.mesh, restMesh(model).positions);
 }
 
 } // namespace antumbra::scene

@@ -6,7 +6,10 @@ namespace antumbra::scene {
 
 namespace {
 
-vec3 vectorOr(const std::vector<double>& values, vec3 fallback) { return values.empty() ? fallback : vec3(values[0], values[1], values[2]); }
+vec3 vectorOr(const std::vector<double>& values, vec3 fallback)
+{
+    return values.empty() ? fallback : vec3(values[0], values[1], values[2]);
+}
 
 quat rotationOf(const std::vector<double>& xyzw)
 {

@@ -101,13 +101,15 @@ private:
         std::vector<vec2> uvs = read<vec2>("TEXCOORD_" + std::to_string(set));
         for (vec2& uv : uvs) {
             const vec2 scaled = uv * scale;
-            uv = offset + vec2{std::cos(angle) * scaled.x + std::sin(angle) * scaled.y, std::cos(angle) * scaled.y - std::sin(angle) * scaled.x};
+            uv = offset +
+                 vec2{std::cos(angle) * scaled.x + std::sin(angle) * scaled.y, std::cos(angle) * scaled.y - std::sin(angle) * scaled.x};
         }
         return uvs;
     }
 
     // The four greatest weights of all sets, their sum made one; a vertex without any hangs on the first joint.
-    static Influence strongest(const std::vector<std::vector<uint32_t>>& joints, const std::vector<std::vector<vec4>>& weights, size_t vertex)
+    static Influence strongest(const std::vector<std::vector<uint32_t>>& joints, const std::vector<std::vector<vec4>>& weights,
+                               size_t vertex)
     {
         struct Share
         {

@@ -36,7 +36,8 @@ void checkHeader(Bytes file)
 {
     require(file.size() >= kHeaderSize + kChunkHeaderSize, "the GLB ends before its first chunk");
     require(wordAt(file, 4) == 2, "GLB version {} is not 2", wordAt(file, 4));
-    require(wordAt(file, 8) <= file.size(), "the GLB is truncated: its header says {} bytes, the file has {}", wordAt(file, 8), file.size());
+    require(wordAt(file, 8) <= file.size(), "the GLB is truncated: its header says {} bytes, the file has {}", wordAt(file, 8),
+            file.size());
 }
 
 Chunks splitChunks(Bytes file)

@@ -1,6 +1,5 @@
 #include "scene/gltf_resources.h"
 
-#include "base/log.h"
 #include "scene/gltf_uri.h"
 
 namespace antumbra::scene {
@@ -47,10 +46,8 @@ private:
         const auto length = buffer["byteLength"].get<uint64_t>();
         Bytes bytes = bufferBytes(buffer, i);
         const bool isPlaceholder = bytes.empty();
-        if (isPlaceholder) {
-            logWarning("buffers[{}] has no data and reads as zeros", i);
+        if (isPlaceholder)
             spend(length, fmt::format("buffers[{}]", i));
-        }
         require(isPlaceholder || bytes.size() >= length, "buffers[{}] is {} bytes long, but its data only {}", i, length, bytes.size());
         bytes.resize(length);
         keep(buffer, bufferName(i), std::move(bytes));

@@ -8,9 +8,9 @@ namespace antumbra::scene {
 
 namespace {
 
-constexpr uint64_t kGreatestTotal = uint64_t{1} << 28;     // components in all accessors of a file
+constexpr uint64_t kGreatestTotal = uint64_t{1} << 28;       // components in all accessors of a file
 constexpr uint64_t kGreatestWithoutData = uint64_t{1} << 22; // elements that take no byte in the file
-constexpr double kBoundTolerance = 1e-4;                   // of the greatest magnitude: exporters round the bounds they write
+constexpr double kBoundTolerance = 1e-4;                     // of the greatest magnitude: exporters round the bounds they write
 
 /// A run of elements in a buffer view.
 struct Run

@@ -39,9 +39,8 @@ struct AttributeFormat
     unsigned quantized;
 };
 constexpr AttributeFormat kFormats[] = {
-    {"POSITION", false, 3, 3, kFloat, kAnySmall},  {"NORMAL", false, 3, 3, kFloat, kSigned},
-    {"TANGENT", false, 4, 4, kFloat, kSigned},     {"TEXCOORD", true, 2, 2, kFraction, kAnySmall},
-    {"COLOR", true, 4, 3, kFraction, 0},           {"JOINTS", true, 4, 4, kUbyte | kUshort, 0},
+    {"POSITION", false, 3, 3, kFloat, kAnySmall},   {"NORMAL", false, 3, 3, kFloat, kSigned}, {"TANGENT", false, 4, 4, kFloat, kSigned},
+    {"TEXCOORD", true, 2, 2, kFraction, kAnySmall}, {"COLOR", true, 4, 3, kFraction, 0},      {"JOINTS", true, 4, 4, kUbyte | kUshort, 0},
     {"WEIGHTS", true, 4, 4, kFraction, 0},
 };
 
@@ -49,18 +48,12 @@ unsigned componentOf(const tinygltf::Accessor& accessor)
 {
     const unsigned normalized = accessor.normalized ? 1 : 0;
     switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-        return kFloat;
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return kByte << normalized;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return kUbyte << normalized;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return kShort << normalized;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return kUshort << normalized;
-    default:
-        return 0;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return kFloat;
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return kByte << normalized;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return kUbyte << normalized;
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return kShort << normalized;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return kUshort << normalized;
+    default: return 0;
     }
 }
 

@@ -92,18 +92,10 @@ private:
     void checkProperty(Json& value, const Rule& rule)
     {
         switch (rule.container) {
-        case Rule::Container::None:
-            checkValue(value, rule);
-            break;
-        case Rule::Container::Array:
-            checkArray(value, rule, &SchemaCheck::checkValue);
-            break;
-        case Rule::Container::Map:
-            checkMap(value, rule);
-            break;
-        case Rule::Container::ArrayOfMaps:
-            checkArray(value, rule, &SchemaCheck::checkMap);
-            break;
+        case Rule::Container::None: checkValue(value, rule); break;
+        case Rule::Container::Array: checkArray(value, rule, &SchemaCheck::checkValue); break;
+        case Rule::Container::Map: checkMap(value, rule); break;
+        case Rule::Container::ArrayOfMaps: checkArray(value, rule, &SchemaCheck::checkMap); break;
         }
     }
 
@@ -141,9 +133,7 @@ private:
     void checkValue(Json& value, const Rule& rule)
     {
         switch (rule.type) {
-        case Rule::Type::Boolean:
-            expect(value.is_boolean(), "must be true or false");
-            break;
+        case Rule::Type::Boolean: expect(value.is_boolean(), "must be true or false"); break;
         case Rule::Type::Integer:
             expect(value.is_number() && std::trunc(value.get<double>()) == value.get<double>(), "must be an integer");
             checkRange(value, rule);
@@ -154,12 +144,8 @@ private:
             expect(value.is_number(), "must be a number");
             checkRange(value, rule);
             break;
-        case Rule::Type::Text:
-            expect(value.is_string(), "must be a text");
-            break;
-        case Rule::Type::Object:
-            checkObject(value, rule.shape);
-            break;
+        case Rule::Type::Text: expect(value.is_string(), "must be a text"); break;
+        case Rule::Type::Object: checkObject(value, rule.shape); break;
         }
         if (!rule.words.empty() && !contains(rule.words, wordOf(value)))
             expect(false, fmt::format("is {}, which is none of: {}", wordOf(value), rule.words));

@@ -34,7 +34,7 @@ struct Rule
     std::string_view selects{};    // a value among these demands the sibling of that name
     std::string_view needs{};      // a sibling that must be there too
     std::string_view excludes{};   // siblings that must not
-    Shape shape{};               // Object
+    Shape shape{};                 // Object
 
     constexpr Rule required() const { return with(&Rule::isRequired, true); }
     constexpr Rule distinct() const { return with(&Rule::isDistinct, true); }

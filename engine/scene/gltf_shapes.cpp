@@ -18,11 +18,8 @@ constexpr Property kBuffer[] = {
 };
 
 constexpr Property kBufferView[] = {
-    {"buffer", indexInto("/buffers").required()},
-    {"byteOffset", integer().from(0)},
-    {"byteLength", integer().from(1).required()},
-    {"byteStride", integer().from(4).upTo(252)},
-    {"target", integer().among("34962 34963")},
+    {"buffer", indexInto("/buffers").required()}, {"byteOffset", integer().from(0)},          {"byteLength", integer().from(1).required()},
+    {"byteStride", integer().from(4).upTo(252)},  {"target", integer().among("34962 34963")},
 };
 
 // The parser keeps these in 32 bits.
@@ -125,8 +122,11 @@ constexpr Property kOcclusionTextureInfo[] = {{"index", kTextureIndex}, {"texCoo
 
 constexpr Rule kFactor = number().from(0).upTo(1);
 constexpr Property kMetallicRoughness[] = {
-    {"baseColorFactor", arrayOf(kFactor, 4, 4)}, {"baseColorTexture", object(kTextureInfo)},         {"metallicFactor", kFactor},
-    {"roughnessFactor", kFactor},                {"metallicRoughnessTexture", object(kTextureInfo)},
+    {"baseColorFactor", arrayOf(kFactor, 4, 4)},
+    {"baseColorTexture", object(kTextureInfo)},
+    {"metallicFactor", kFactor},
+    {"roughnessFactor", kFactor},
+    {"metallicRoughnessTexture", object(kTextureInfo)},
 };
 
 constexpr Property kMaterial[] = {
@@ -197,8 +197,11 @@ constexpr Property kRoot[] = {
 
 constexpr Property kSpot[] = {{"innerConeAngle", number().from(0)}, {"outerConeAngle", number().above(0)}};
 constexpr Property kLight[] = {
-    {"type", text().selecting("spot").required()}, {"color", arrayOf(kFactor, 3, 3)}, {"intensity", number().from(0)},
-    {"range", number().above(0)},                  {"spot", object(kSpot)},
+    {"type", text().selecting("spot").required()},
+    {"color", arrayOf(kFactor, 3, 3)},
+    {"intensity", number().from(0)},
+    {"range", number().above(0)},
+    {"spot", object(kSpot)},
 };
 constexpr Property kLights[] = {{"lights", arrayOf(object(kLight)).required()}};
 constexpr Property kLightOfNode[] = {{"light", indexInto("/extensions/KHR_lights_punctual/lights").required()}};

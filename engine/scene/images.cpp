@@ -2,74 +2,68 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "scene/png_check.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 namespace antumbra::scene {
 
 namespace {
 
-constexpr uint64_t kGreatestSide = 16384; // pixels
-constexpr uint64_t kGreatestDecoded = uint64_t{512} << 20;
+constexpr uint64_t kGreatestSide = 16384;                  // pixels
+constexpr uint64_t kGreatestDecoded = uint64_t{512} << 20; // bytes
+constexpr uint64_t kGreatestFile = uint64_t{512} << 20;    // bytes
 
 /// A file format known by its first bytes; `name` is OpenImageIO's.
 struct Format
 {
     std::string_view signature;
-    const char* name;
+    std::string_view name;
     bool isRadiance;
 };
+constexpr std::string_view kPng = "png";
 constexpr Format kFormats[] = {
-    {"\x89PNG\r\n\x1a\n", "png", false},
+    {"\x89PNG\r\n\x1a\n", kPng, false},
     {"\xff\xd8\xff", "jpeg", false},
     {"\x76\x2f\x31\x01", "openexr", true},
     {"#?", "hdr", true},
 };
 
-const Format& formatOf(std::string_view head, const std::string& name)
+const Format& formatOf(std::span<const std::byte> encoded, const std::string& name)
 {
+    const std::string_view head(reinterpret_cast<const char*>(encoded.data()), encoded.size());
     for (const Format& format : kFormats)
         if (head.starts_with(format.signature))
             return format;
     throw Error("not a PNG, JPEG, OpenEXR or Radiance picture", name);
 }
 
-Error readingError(OIIO::ImageInput& input, const std::string& name)
+Error readingError(const OIIO::ImageInput* input, const std::string& name)
 {
-    const std::string message = input.geterror();
-    return {message.empty() ? "the picture cannot be read" : "the picture cannot be read: " + message.substr(0, message.find('\n')), name};
+    const std::string message = input == nullptr ? "no reader for its format" : input->geterror();
+    return {"the picture cannot be read: " + message.substr(0, message.find('\n')), name};
 }
 
-/// An open picture whose size has been found sane, before anything is allocated for it.
+/// A picture whose header has been read and found sane, before anything is allocated for it.
 class OpenPicture
 {
 public:
-    OpenPicture(const Format& format, const std::string& path, OIIO::Filesystem::IOProxy* memory, const std::string& name)
-        : input_(OIIO::ImageInput::create(format.name)), name_(name)
+    /// Keeps a reference to `encoded`. `bytesPerChannel` is what the caller will decode to.
+    OpenPicture(const Format& format, std::span<const std::byte> encoded, size_t bytesPerChannel, const std::string& name)
+        // The reader takes a pointer to non-const and only reads.
+        : memory_(const_cast<std::byte*>(encoded.data()), encoded.size()), input_(OIIO::ImageInput::create(std::string(format.name))),
+          name_(name)
     {
-        if (!input_)
-            throw Error(std::string("this build of OpenImageIO reads no ") + format.name, name);
+        if (format.name == kPng && !isWholePng(encoded))
+            throw Error("the picture cannot be read: the PNG is truncated or damaged", name_);
         OIIO::ImageSpec wishes;
         wishes["oiio:UnassociatedAlpha"] = 1;
-        if (memory != nullptr)
-            input_->set_ioproxy(memory);
-        if (!input_->open(path, spec_, wishes))
-            throw readingError(*input_, name_);
-    }
-
-    void limit(size_t bytesPerChannel) const
-    {
-        if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels <= 0)
-            throw Error("the picture has no pixels or is not flat", name_);
-        if (uint64_t(width()) > kGreatestSide || uint64_t(height()) > kGreatestSide)
-            throw Error("the picture is larger than 16384 pixels a side", name_);
-        if (uint64_t{width()} * height() * channels() * bytesPerChannel > kGreatestDecoded)
-            throw Error("the picture takes more than 512 MiB", name_);
+        if (!input_ || !input_->set_ioproxy(&memory_) || !input_->open("memory." + std::string(format.name), spec_, wishes))
+            throw readingError(input_.get(), name_);
+        checkSize(bytesPerChannel);
     }
 
     template <class T>
@@ -77,7 +71,7 @@ public:
     {
         std::vector<T> values(size_t{width()} * height() * channels());
         if (!input_->read_image(0, 0, 0, spec_.nchannels, type, values.data()))
-            throw readingError(*input_, name_);
+            throw readingError(input_.get(), name_);
         return values;
     }
 
@@ -86,26 +80,25 @@ public:
     [[nodiscard]] uint32_t channels() const { return static_cast<uint32_t>(spec_.nchannels); }
 
 private:
+    void checkSize(size_t bytesPerChannel) const
+    {
+        if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels <= 0)
+            throw Error("the picture has no pixels or is not flat", name_);
+        if (width() > kGreatestSide || height() > kGreatestSide)
+            throw Error("the picture is larger than 16384 pixels a side", name_);
+        if (uint64_t{width()} * height() * channels() * bytesPerChannel > kGreatestDecoded)
+            throw Error("the picture takes more than 512 MiB", name_);
+    }
+
+    OIIO::Filesystem::IOMemReader memory_;
     OIIO::ImageInput::unique_ptr input_;
     OIIO::ImageSpec spec_;
     std::string name_;
 };
 
-Format formatOfFile(const Path& path)
+ImageF decodeF(const Format& format, std::span<const std::byte> encoded, const std::string& name)
 {
-    char head[8] = {};
-    if (!std::filesystem::exists(path))
-        throw Error("no such file", path.string());
-    if (!std::filesystem::is_regular_file(path))
-        throw Error("not a regular file", path.string());
-    std::ifstream(path, std::ios::binary).read(head, sizeof head);
-    return formatOf({head, sizeof head}, path.string());
-}
-
-ImageF loadAs(const Format& format, const Path& path)
-{
-    OpenPicture picture(format, path.string(), nullptr, path.string());
-    picture.limit(sizeof(float));
+    OpenPicture picture(format, encoded, sizeof(float), name);
     return {picture.width(), picture.height(), picture.channels(), picture.read<float>(OIIO::TypeDesc::FLOAT)};
 }
 
@@ -141,14 +134,19 @@ void save(const Path& path, const char* format, OIIO::ImageSpec spec, OIIO::Type
 
 } // namespace
 
-ImageF loadImageF(const Path& path) { return loadAs(formatOfFile(path), path); }
+ImageF loadImageF(const Path& path)
+{
+    const std::vector<std::byte> encoded = readFile(path, kGreatestFile);
+    return decodeF(formatOf(encoded, path.string()), encoded, path.string());
+}
 
 ImageF loadRadiance(const Path& path)
 {
-    const Format format = formatOfFile(path);
+    const std::vector<std::byte> encoded = readFile(path, kGreatestFile);
+    const Format& format = formatOf(encoded, path.string());
     if (!format.isRadiance)
         throw Error("an environment must be .hdr or .exr", path.string());
-    const ImageF picture = loadAs(format, path);
+    const ImageF picture = decodeF(format, encoded, path.string());
     if (picture.channels < 3)
         throw Error("an environment needs three channels", path.string());
 
@@ -168,13 +166,10 @@ ImageF loadRadiance(const Path& path)
 
 Image8 decodeImage8(std::span<const std::byte> encoded, const std::string& name)
 {
-    const Format& format = formatOf({reinterpret_cast<const char*>(encoded.data()), encoded.size()}, name);
+    const Format& format = formatOf(encoded, name);
     if (format.isRadiance)
         throw Error("not a PNG or JPEG picture", name);
-    // The reader takes a pointer to non-const and reads only.
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(encoded.data()), encoded.size());
-    OpenPicture picture(format, std::string("memory.") + format.name, &memory, name);
-    picture.limit(4);
+    OpenPicture picture(format, encoded, 4, name);
     return {picture.width(), picture.height(), widened(picture.read<uint8_t>(OIIO::TypeDesc::UINT8), picture.channels())};
 }
 

@@ -1,4 +1,4 @@
-#include "base/error.h"
+#include "scene/animation.h"
 #include "scene/gltf.h"
 
 #include <fmt/core.h>
@@ -13,15 +13,15 @@ namespace {
 std::string describe(const Model& model)
 {
     const Mesh& mesh = model.mesh;
-    const Aabb bounds = mesh.bounds();
+    const Aabb bounds = restMesh(model).bounds();
     std::string text = fmt::format("glTF \"{}\"\n", model.name);
     text += fmt::format("  triangles {}, vertices {}, morph targets {}\n", mesh.indices.size() / 3, mesh.positions.size(),
                         mesh.morphTargets.size());
     text += fmt::format("  nodes {}, joints {}, materials {}, images {}\n", model.nodes.size(), model.joints.size(), model.materials.size(),
                         model.images.size());
     if (!bounds.isEmpty())
-        text += fmt::format("  bind space {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m\n", bounds.lowest.x, bounds.lowest.y,
-                            bounds.lowest.z, bounds.highest.x, bounds.highest.y, bounds.highest.z);
+        text += fmt::format("  at rest {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m\n", bounds.lowest.x, bounds.lowest.y, bounds.lowest.z,
+                            bounds.highest.x, bounds.highest.y, bounds.highest.z);
     for (const Image8& image : model.images)
         text += fmt::format("  image {}x{}\n", image.width, image.height);
     for (const Clip& clip : model.clips)
@@ -31,7 +31,8 @@ std::string describe(const Model& model)
 
 std::string describe(const Path& path, const ImageF& image)
 {
-    std::string text = fmt::format("image \"{}\" {}x{}, {} channels\n", path.filename().string(), image.width, image.height, image.channels);
+    std::string text =
+        fmt::format("image \"{}\" {}x{}, {} channels\n", path.filename().string(), image.width, image.height, image.channels);
     for (size_t channel = 0; channel < image.channels; ++channel) {
         float least = std::numeric_limits<float>::infinity();
         float greatest = -least;

@@ -71,8 +71,8 @@ struct Model
 {
     std::string name;
     Mesh mesh;
-    std::vector<Node> nodes;   // parents before children
-    std::vector<Joint> joints; // at least one
+    std::vector<Node> nodes;             // parents before children
+    std::vector<Joint> joints;           // at least one
     std::vector<float> restMorphWeights; // one a morph target
     std::vector<Material> materials;
     std::vector<Image8> images;

@@ -14,14 +14,7 @@ namespace antumbra::scene {
 /// Keys and values as text; a later one wins.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-enum class MeshKind
-{
-    None,
-    Plane,
-    Cube,
-    Sphere,
-    File
-};
+enum class MeshKind { None, Plane, Cube, Sphere, File };
 
 struct SceneMesh
 {

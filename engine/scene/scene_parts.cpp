@@ -106,9 +106,7 @@ void readLightShape(const JsonObject& part, AreaLight& light)
         allow({"vertices"});
         readOutline(part, light);
         break;
-    case LightShape::Mesh:
-        allow({});
-        break;
+    case LightShape::Mesh: allow({}); break;
     }
 }
 

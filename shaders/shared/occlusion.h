@@ -82,11 +82,13 @@ struct OcclusionUpsample
     float pixelScale;
 };
 
+const uint kNothingTraced = 0xffffffffu;
+
 struct ReferenceAccumulate
 {
     uint now; // written
     uint before;
-    uint traced;
+    uint traced; // kNothingTraced: the mean stays
     uint frameCount; // frames summed in `before`
 };
 

@@ -121,4 +121,19 @@ TEST(Each, VisitsInOrderOfCreationWhileNothingWasRemoved)
     EXPECT_EQ(expected, 100);
 }
 
+TEST(Each, BareEntitiesMayBeCreatedDuringALoop)
+{
+    World world;
+    std::vector<Entity> expected;
+    for (int i = 0; i < 3; ++i)
+        expected.push_back(world.create(Position{i}));
+    std::vector<Entity> seen;
+    for (auto [entity, position] : Each<Entity, const Position>(world)) {
+        for (int i = 0; i < 1000; ++i)
+            (void)world.create();
+        seen.push_back(entity);
+    }
+    EXPECT_EQ(seen, expected);
+}
+
 } // namespace

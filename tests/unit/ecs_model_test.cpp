@@ -43,25 +43,17 @@ public:
         Expected& expected = any();
         switch (choice) {
         case 3:
-        case 4:
-            return destroy(expected);
+        case 4: return destroy(expected);
         case 5:
         case 6:
-        case 7:
-            return addSmall(expected);
+        case 7: return addSmall(expected);
         case 8:
-        case 9:
-            return addOwning(expected);
-        case 10:
-            return addMarker(expected);
-        case 11:
-            return remove(expected, expected.small, &World::remove<Small>);
-        case 12:
-            return remove(expected, expected.owning, &World::remove<Owning>);
-        case 13:
-            return removeMarker(expected);
-        default:
-            return compare(expected);
+        case 9: return addOwning(expected);
+        case 10: return addMarker(expected);
+        case 11: return remove(expected, expected.small, &World::remove<Small>);
+        case 12: return remove(expected, expected.owning, &World::remove<Owning>);
+        case 13: return removeMarker(expected);
+        default: return compare(expected);
         }
     }
 

@@ -1,5 +1,5 @@
 // Tapered limbs joined by the polynomial smooth minimum. Only the left half is described; the field mirrors it.
-#include "make_character/body.h"
+#include "tools/make_character/body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,11 +103,17 @@ dvec3 normalOfBody(const dvec3& point)
     return glm::normalize(gradient);
 }
 
+dvec3 snapped(const dvec3& point)
+{
+    constexpr double kStepsPerMetre = 1 << 24;
+    return glm::round(point * kStepsPerMetre) / kStepsPerMetre;
+}
+
 dvec3 ontoBody(dvec3 point)
 {
     for (int i = 0; i < 4; ++i)
         point -= distanceToBody(point) * normalOfBody(point);
-    return point;
+    return snapped(point);
 }
 
 Joint limbAt(const dvec3& point)

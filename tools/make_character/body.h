@@ -1,7 +1,7 @@
 // The walker's shape as a signed distance field, and what each place on it belongs to. Knows no triangles.
 #pragma once
 
-#include "make_character/skeleton.h"
+#include "tools/make_character/skeleton.h"
 
 namespace antumbra::character {
 
@@ -18,7 +18,10 @@ enum Cloth : uint32_t
 double distanceToBody(const dvec3& point);
 /// Unit, outwards.
 dvec3 normalOfBody(const dvec3& point);
-/// The nearest point of the surface, for a point already near it.
+/// On a lattice of 60 nanometres, where the last bits of another machine's mathematics die out: remeshing takes yes-or-no
+/// decisions that they would steer.
+dvec3 snapped(const dvec3& point);
+/// The nearest point of the surface, snapped, for a point already near it.
 dvec3 ontoBody(dvec3 point);
 
 /// The joint whose limb is nearest.

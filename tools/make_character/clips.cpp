@@ -1,6 +1,6 @@
-#include "make_character/clips.h"
+#include "tools/make_character/clips.h"
 
-#include "make_character/gait.h"
+#include "tools/make_character/gait.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 // The walker's motions, each a closed loop on the spot: who plays one moves the model against the planted feet.
 #pragma once
 
-#include "make_character/pose.h"
 #include "scene/model.h"
+#include "tools/make_character/pose.h"
 
 #include <functional>
 #include <string>

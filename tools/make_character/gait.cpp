@@ -1,4 +1,4 @@
-#include "make_character/gait.h"
+#include "tools/make_character/gait.h"
 
 #include "base/check.h"
 

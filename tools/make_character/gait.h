@@ -1,7 +1,7 @@
 // Stepping: walking, running and turning on the spot as one motion of different measures, without sliding feet.
 #pragma once
 
-#include "make_character/pose.h"
+#include "tools/make_character/pose.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "make_character/glb.h"
+#include "tools/make_character/glb.h"
 
 #include <nlohmann/json.hpp>
 

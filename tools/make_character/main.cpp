@@ -1,9 +1,9 @@
 // make_character OUTPUT.glb: the walker, the same bytes every time.
 #include "base/error.h"
 #include "base/file.h"
-#include "make_character/clips.h"
-#include "make_character/glb.h"
-#include "make_character/surface.h"
+#include "tools/make_character/clips.h"
+#include "tools/make_character/glb.h"
+#include "tools/make_character/surface.h"
 
 #include <fmt/core.h>
 

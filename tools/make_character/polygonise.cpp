@@ -1,6 +1,6 @@
 // Marching tetrahedra (Doi and Koide, IEICE Transactions 1991) over the six tetrahedra around each cell's diagonal: closed
 // and manifold whatever the field, unlike marching cubes. Remeshing mends the poor triangles.
-#include "make_character/surface.h"
+#include "tools/make_character/surface.h"
 
 #include "base/check.h"
 
@@ -93,7 +93,7 @@ private:
             vertices_.try_emplace(std::minmax(inside.index, outside.index), static_cast<uint32_t>(surface_.positions.size()));
         if (isNew) {
             const double share = inside.distance / (inside.distance - outside.distance);
-            surface_.positions.push_back(glm::mix(inside.position, outside.position, std::clamp(share, kMargin, 1 - kMargin)));
+            surface_.positions.push_back(snapped(glm::mix(inside.position, outside.position, std::clamp(share, kMargin, 1 - kMargin))));
         }
         return entry->second;
     }

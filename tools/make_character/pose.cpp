@@ -1,4 +1,4 @@
-#include "make_character/pose.h"
+#include "tools/make_character/pose.h"
 
 #include <algorithm>
 #include <cmath>

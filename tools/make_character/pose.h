@@ -2,7 +2,7 @@
 // kinematics), arms by where they point.
 #pragma once
 
-#include "make_character/skeleton.h"
+#include "tools/make_character/skeleton.h"
 
 namespace antumbra::character {
 

@@ -1,6 +1,6 @@
 // Isotropic remeshing after Botsch and Kobbelt, A Remeshing Approach to Multiresolution Modeling, SGP 2004, from a mesh so
 // fine that edges need only be collapsed, never split; flips follow the Delaunay criterion.
-#include "make_character/surface.h"
+#include "tools/make_character/surface.h"
 
 #include "base/check.h"
 
@@ -184,12 +184,13 @@ void Remesher::collapse(Edge edge)
 void Remesher::collapseShortEdges()
 {
     constexpr double kShortest = 0.8;
+    constexpr double kPerMillion = 1e6; // whole numbers, so that equal lengths tie whatever their last bits
     std::vector<std::tuple<double, uint32_t, uint32_t>> shortFirst;
     for (const Edge& edge : edges())
         if (const double length = relativeLength(edge); length < kShortest)
-            shortFirst.emplace_back(length, edge.a, edge.b);
+            shortFirst.emplace_back(std::round(kPerMillion * length), edge.a, edge.b);
     std::ranges::sort(shortFirst);
-    for (const auto& [length, a, b] : shortFirst)
+    for (const auto& [rank, a, b] : shortFirst)
         if (trianglesOf({a, b}).size() == 2 && relativeLength({a, b}) < kShortest)
             collapse({a, b});
 }

@@ -1,4 +1,4 @@
-#include "make_character/skeleton.h"
+#include "tools/make_character/skeleton.h"
 
 namespace antumbra::character {
 

@@ -1,4 +1,4 @@
-#include "make_character/surface.h"
+#include "tools/make_character/surface.h"
 
 namespace antumbra::character {
 

@@ -1,7 +1,7 @@
 // From a field to a closed triangle mesh that is even, fitted to its detail, and cut cleanly where the cloth changes.
 #pragma once
 
-#include "make_character/body.h"
+#include "tools/make_character/body.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "make_environment/radiance.h"
+#include "tools/make_environment/radiance.h"
 
 #include <algorithm>
 #include <array>

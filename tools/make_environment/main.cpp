@@ -2,8 +2,8 @@
 #include "bake/sh.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "make_environment/radiance.h"
-#include "make_environment/rgbe.h"
+#include "tools/make_environment/radiance.h"
+#include "tools/make_environment/rgbe.h"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // The format of Ward, Real Pixels (Graphics Gems II, 1991), with the scanline run-length coding of the Radiance software.
-#include "make_environment/rgbe.h"
+#include "tools/make_environment/rgbe.h"
 
 #include "base/check.h"
 
@@ -25,7 +25,7 @@ Texel toTexel(const float* rgb)
         return {};
     int exponent = 0;
     std::frexp(greatest, &exponent);
-    const auto mantissa = [&](float value) { return static_cast<uint8_t>(std::ldexp(value, 8 - exponent)); };
+    const auto mantissa = [&](float value) { return static_cast<uint8_t>(std::min(std::round(std::ldexp(value, 8 - exponent)), 255.0f)); };
     return {mantissa(rgb[0]), mantissa(rgb[1]), mantissa(rgb[2]), static_cast<uint8_t>(exponent + 128)};
 }
 

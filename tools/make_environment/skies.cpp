@@ -1,5 +1,5 @@
 // Overcast: the CIE standard overcast sky, L = Lz (1 + 2 sin(elevation)) / 3 (Moon and Spencer 1942), with slight clouds.
-#include "make_environment/radiance.h"
+#include "tools/make_environment/radiance.h"
 
 #include <algorithm>
 #include <cmath>

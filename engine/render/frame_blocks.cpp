@@ -1,0 +1,104 @@
+#include "render/frame_blocks.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace antumbra::render {
+
+namespace {
+
+constexpr uint32_t kBands = 3;
+
+/// Right-handed, reversed depth without a far plane: clip z = near, w = -z. Y points down in Vulkan's clip space.
+mat4 reversedPerspective(float verticalFov, float aspect, float near)
+{
+    const float f = 1.0f / std::tan(0.5f * verticalFov);
+    mat4 projection{0};
+    projection[0][0] = f / aspect;
+    projection[1][1] = -f;
+    projection[2][3] = -1.0f;
+    projection[3][2] = near;
+    return projection;
+}
+
+void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 extent)
+{
+    const float width = static_cast<float>(extent.x), height = static_cast<float>(extent.y);
+    const mat4 viewFromWorld = glm::mat4_cast(glm::conjugate(camera.rotation)) * glm::translate(mat4{1}, -camera.eye);
+    block.clipFromWorld = reversedPerspective(camera.verticalFovRadians, width / height, camera.nearMetres) * viewFromWorld;
+    block.worldFromClip = glm::inverse(block.clipFromWorld);
+    block.eye = camera.eye;
+    block.near = camera.nearMetres;
+    const float top = std::tan(0.5f * camera.verticalFovRadians), right = top * width / height;
+    block.cornerRay = camera.rotation * vec3{-right, top, -1.0f};
+    block.rayX = camera.rotation * vec3{2.0f * right / width, 0, 0};
+    block.rayY = camera.rotation * vec3{0, -2.0f * top / height, 0};
+}
+
+shader::InstanceBlock instanceOf(const DeviceModel& model, const mat4& world, VkDeviceAddress positions, VkDeviceAddress normals, uint32_t flags)
+{
+    return {.worldFromLocal = world,
+            .normalFromLocal = mat4(glm::inverseTranspose(mat3(world))),
+            .positions = positions,
+            .normals = normals,
+            .uvs = model.uvs.address(),
+            .triangleMaterials = model.triangleMaterials.address(),
+            .materials = model.materials.address(),
+            .flags = flags,
+            .padding = 0};
+}
+
+} // namespace
+
+const bake::ShFunction& FrameBlocks::projected(uint32_t environment)
+{
+    if (projections_.size() <= environment)
+        projections_.resize(environment + 1);
+    if (!projections_[environment])
+        projections_[environment] = bake::project(assets_->environments[environment], kBands);
+    return *projections_[environment];
+}
+
+void FrameBlocks::writeEnvironment(shader::FrameBlock& block, const EnvironmentView& environment, const GpuScene& scene)
+{
+    const bake::ShFunction radiance = bake::rotatedAboutY(projected(environment.image), environment.rotationRadians);
+    const bake::ShFunction irradiance = bake::irradianceOf(radiance);
+    for (uint32_t i = 0; i < radiance.coefficientCount(); ++i) {
+        block.radianceSh[i] = vec3(radiance.coefficients[i]) * environment.intensity;
+        block.irradianceSh[i] = vec3(irradiance.coefficients[i]) * environment.intensity;
+    }
+    block.shBands = kBands;
+    block.environment = scene.environment(environment.image).sampledSlot();
+    block.environmentRotation = environment.rotationRadians;
+    block.environmentIntensity = environment.intensity;
+}
+
+FrameAddresses FrameBlocks::write(const FrameView& view, const GpuScene& scene, uvec2 extent)
+{
+    shader::FrameBlock block{};
+    writeCamera(block, view.camera, extent);
+    writeEnvironment(block, view.environment, scene);
+    block.exposure = view.exposure;
+    const gpu::FrameBytes frame = device_->frameBytes(sizeof(block));
+    std::memcpy(frame.mapped, &block, sizeof(block));
+
+    const size_t count = view.statics.size() + view.characters.size();
+    const gpu::FrameBytes instances = device_->frameBytes(std::max<size_t>(count, 1) * sizeof(shader::InstanceBlock));
+    std::byte* target = instances.mapped;
+    const auto append = [&](const shader::InstanceBlock& instance) {
+        std::memcpy(target, &instance, sizeof(instance));
+        target += sizeof(instance);
+    };
+    for (const StaticDraw& draw : view.statics) {
+        const DeviceRest& rest = scene.rest(draw.model);
+        append(instanceOf(scene.model(draw.model), draw.world, rest.positions.address(), rest.normals.address(), 0));
+    }
+    for (const CharacterDraw& draw : view.characters) {
+        const DeviceCharacter& character = scene.character(draw.slot);
+        append(instanceOf(scene.model(draw.model), draw.world, character.positions.address(), character.normals.address(),
+                          shader::kInstanceDynamic));
+    }
+    return {frame.address, instances.address};
+}
+
+} // namespace antumbra::render

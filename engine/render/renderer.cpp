@@ -1,0 +1,227 @@
+#include "render/renderer.h"
+
+#include "base/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+namespace antumbra::render {
+
+namespace {
+
+using graph::ImageRef;
+using graph::Use;
+
+constexpr std::array<std::string_view, kAovCount> kAovNames{"color",    "irradiance", "unshadowed", "occluded",
+                                                            "albedo",   "normal",     "depth",      "cones"};
+
+gpu::Image makePicture(gpu::Device& device, uvec2 extent)
+{
+    return {device, "picture",
+            {.format = gpu::Format::Rgba8Unorm,
+             .extent = extent,
+             .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
+}
+
+void copyToBuffer(graph::Recorder& recorder, ImageRef image, VkBuffer target)
+{
+    const gpu::Image& source = recorder.image(image);
+    const VkBufferImageCopy region{.imageSubresource = {source.aspect(), 0, 0, 1},
+                                   .imageExtent = {source.info().extent.x, source.info().extent.y, 1}};
+    vkCmdCopyImageToBuffer(recorder.commands(), source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, 1, &region);
+}
+
+float srgbDecoded(float encoded) { return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f); }
+
+/// One pixel as four floats.
+vec4 unpacked(const std::byte* pixel, gpu::Format format)
+{
+    switch (format) {
+    case gpu::Format::Rgba16Float: {
+        uint64_t bits = 0;
+        std::memcpy(&bits, pixel, sizeof(bits));
+        return glm::unpackHalf4x16(bits);
+    }
+    case gpu::Format::Rgba16Snorm: {
+        uint64_t bits = 0;
+        std::memcpy(&bits, pixel, sizeof(bits));
+        return glm::unpackSnorm4x16(bits);
+    }
+    case gpu::Format::Rgba8Srgb: {
+        uint32_t bits = 0;
+        std::memcpy(&bits, pixel, sizeof(bits));
+        const vec4 encoded = glm::unpackUnorm4x8(bits);
+        return {srgbDecoded(encoded.x), srgbDecoded(encoded.y), srgbDecoded(encoded.z), encoded.w};
+    }
+    case gpu::Format::Rgba32Float: {
+        vec4 value;
+        std::memcpy(&value, pixel, sizeof(value));
+        return value;
+    }
+    case gpu::Format::Depth32Float: {
+        float value = 0;
+        std::memcpy(&value, pixel, sizeof(value));
+        return vec4{value};
+    }
+    default: check(false, "a format that can be read back"); return {};
+    }
+}
+
+vec3 unitFromOctahedral(vec2 p)
+{
+    vec3 v{p, 1.0f - std::abs(p.x) - std::abs(p.y)};
+    if (v.z < 0.0f)
+        v = {(1.0f - std::abs(p.y)) * (p.x >= 0 ? 1.0f : -1.0f), (1.0f - std::abs(p.x)) * (p.y >= 0 ? 1.0f : -1.0f), v.z};
+    return glm::normalize(v);
+}
+
+} // namespace
+
+std::optional<Aov> aovOf(std::string_view name)
+{
+    const auto found = std::ranges::find(kAovNames, name);
+    if (found == kAovNames.end())
+        return std::nullopt;
+    return static_cast<Aov>(found - kAovNames.begin());
+}
+
+Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent)
+    : device_(&device), scene_(device, assets), blocks_(device, assets), gbuffer_(device), posing_(device), occlusion_(device),
+      reference_(device), composite_(device), tonemap_(device), overlay_(device), counters_(device), executor_(device),
+      picture_(makePicture(device, extent))
+{
+}
+
+void Renderer::resize(uvec2 extent)
+{
+    if (extent != this->extent())
+        picture_ = makePicture(*device_, extent);
+}
+
+void Renderer::declareCapture(Aov aov, ImageRef image)
+{
+    if ((captures_ >> static_cast<uint32_t>(aov) & 1u) == 0 || !image)
+        return;
+    const graph::Resource& resource = graph_.resources()[image.index];
+    const uvec2 extent = graph_.extent(image);
+    Readback& readback = readbacks_[static_cast<uint32_t>(aov)];
+    const size_t bytes = size_t{extent.x} * extent.y * gpu::bytesPerPixel(resource.image.format);
+    if (readback.buffer.bytes() != bytes)
+        readback.buffer = gpu::Buffer(*device_, "readback", bytes, gpu::MemoryKind::Readback);
+    readback.format = resource.image.format;
+    readback.extent = extent;
+
+    graph::Pass pass = graph_.add("capture");
+    pass.read(image, Use::TransferRead);
+    const graph::BufferRef target = pass.write(graph_.importBuffer("readback", bytes, graph::importedBuffer(readback.buffer)), Use::TransferWrite);
+    pass.record([image, handle = readback.buffer.handle()](graph::Recorder& recorder) { copyToBuffer(recorder, image, handle); });
+    graph_.output(target, Use::HostRead);
+}
+
+void Renderer::declare(const FrameView& view)
+{
+    scene_.prepare(view);
+    nearMetres_ = view.camera.nearMetres;
+    graph_.reset();
+    const FrameAddresses addresses = blocks_.write(view, scene_, extent());
+    graph::BufferRef counters = counters_.declareClear(graph_);
+
+    const Posed posed = posing_.declare(graph_, view, scene_);
+    const GBuffer g = gbuffer_.declare(graph_, view, addresses, scene_, posed, extent());
+    ImageRef occluded = occlusion_.declare(graph_, view, addresses, scene_, g, posed, counters);
+    const ImageRef reference = reference_.declare(graph_, view, addresses, scene_, g, posed);
+    if (view.knobs.reference.samples > 0 && view.knobs.view == ViewMode::Final)
+        occluded = reference;
+    const bool wantsIrradiance = (captures_ >> static_cast<uint32_t>(Aov::Irradiance) & 1u) != 0;
+    const Composed lit = composite_.declare(graph_, view, addresses, g, occluded, reference, counters, wantsIrradiance);
+    const ImageRef blank =
+        graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});
+    const ImageRef picture = overlay_.declare(graph_, tonemap_.declare(graph_, view, lit.color, blank));
+
+    declareCapture(Aov::Color, lit.color);
+    declareCapture(Aov::Irradiance, lit.irradiance);
+    declareCapture(Aov::Unshadowed, g.unshadowed);
+    declareCapture(Aov::Occluded, occluded);
+    declareCapture(Aov::Albedo, g.albedo);
+    declareCapture(Aov::Normal, g.normals);
+    declareCapture(Aov::Depth, g.depth);
+    declareCapture(Aov::Cones, occluded);
+    counters_.declareReadback(graph_, counters);
+    graph_.output(picture, Use::TransferRead);
+    compile(graph_, plan_);
+}
+
+void Renderer::render(const FrameView& view, const gpu::Image* window, VkSemaphore waitFor, VkSemaphore signal)
+{
+    const VkCommandBuffer commands = device_->beginFrame();
+    counters_.beginFrame();
+    declare(view);
+    check(window == nullptr, "no window yet");
+    executor_.execute(plan_, graph_, commands);
+    device_->endFrame(waitFor, signal);
+    captures_ = 0;
+}
+
+void Renderer::capture(std::span<const Aov> aovs)
+{
+    for (const Aov aov : aovs)
+        captures_ |= 1u << static_cast<uint32_t>(aov);
+}
+
+scene::Image8 Renderer::picture()
+{
+    device_->waitIdle();
+    const uvec2 extent = this->extent();
+    scene::Image8 image{extent.x, extent.y, std::vector<uint8_t>(size_t{4} * extent.x * extent.y)};
+    const gpu::Buffer target(*device_, "picture readback", image.rgba.size(), gpu::MemoryKind::Readback);
+    device_->submitNow([&](VkCommandBuffer commands) {
+        const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {extent.x, extent.y, 1}};
+        vkCmdCopyImageToBuffer(commands, picture_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(), 1, &region);
+    });
+    std::memcpy(image.rgba.data(), target.mapped(), image.rgba.size());
+    return image;
+}
+
+scene::ImageF Renderer::captured(Aov aov)
+{
+    device_->waitIdle();
+    const Readback& readback = readbacks_[static_cast<uint32_t>(aov)];
+    check(static_cast<bool>(readback.buffer), "an AOV that was captured before");
+    const uint32_t channels = aov == Aov::Depth || aov == Aov::Cones ? 1 : 3;
+    scene::ImageF image{readback.extent.x, readback.extent.y, channels, {}};
+    const size_t stride = gpu::bytesPerPixel(readback.format);
+    for (size_t i = 0; i < size_t{image.width} * image.height; ++i) {
+        const vec4 value = unpacked(readback.buffer.mapped() + i * stride, readback.format);
+        const vec3 shown = aov == Aov::Normal ? unitFromOctahedral({value.z, value.w}) : vec3(value);
+        if (aov == Aov::Depth)
+            image.values.push_back(value.x > 0 ? nearMetres_ / value.x : 0.0f);
+        else if (aov == Aov::Cones)
+            image.values.push_back(value.w);
+        else
+            image.values.insert(image.values.end(), {shown.x, shown.y, shown.z});
+    }
+    return image;
+}
+
+FrameReport Renderer::report() const
+{
+    return {.passes = executor_.passTimes(),
+            .absent = plan_.absent,
+            .frameMilliseconds = executor_.frameMilliseconds(),
+            .counters = counters_.newest(),
+            .frame = device_->frameNumber()};
+}
+
+MemoryReport Renderer::memory() const
+{
+    const gpu::MemoryStats& stats = device_->memory().stats();
+    return {.reserved = stats.reservedBytes,
+            .used = stats.usedBytes,
+            .transient = executor_.transientBytes(),
+            .history = executor_.historyBytes(),
+            .allocationsEver = stats.allocationsEver};
+}
+
+} // namespace antumbra::render

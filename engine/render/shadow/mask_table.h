@@ -1,0 +1,18 @@
+// The samples of the occlusion pass and, for every cone there can be, which of them may lie in it (methods/conical-culling.md).
+#pragma once
+
+#include "base/math.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace antumbra::render {
+
+/// Cosine-weighted Hammersley points about +Z in the order of shaders/lib/hemisphere.glsl; w is 0.
+std::vector<vec4> hemisphereSamples(uint32_t count);
+
+/// Bit s of word [cell][s / 32] is set unless sample s lies outside every cone of the cell; cells as in shaders/lib/mask_table.glsl,
+/// four words for every 128 samples begun. 256 KiB for 128 samples.
+std::vector<uint32_t> maskTable(const std::vector<vec4>& samples);
+
+} // namespace antumbra::render

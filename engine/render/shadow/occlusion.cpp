@@ -1,0 +1,140 @@
+#include "render/shadow/occlusion.h"
+
+#include "render/shadow/mask_table.h"
+
+namespace antumbra::render {
+
+namespace {
+
+using graph::Use;
+
+constexpr uvec2 kTraceGroup{16, 8}; // pixels, as in occlusion_trace.comp
+constexpr gpu::Format kOccludedFormat = gpu::Format::Rgba16Float;
+
+} // namespace
+
+void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
+{
+    gpu::Pipeline& trace = trace_[static_cast<size_t>(knobs.culling)];
+    if (!trace) {
+        const gpu::ShaderDefine culling{"CULLING", static_cast<int>(knobs.culling)};
+        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(&culling, 1));
+    }
+    if (knobs.filter > 0 && !filter_)
+        filter_ = computePipeline(*device_, "occlusion_filter.comp");
+    if (knobs.scale != Scale::Full && !upsample_)
+        upsample_ = computePipeline(*device_, "occlusion_upsample.comp");
+    if (sampleCount_ == knobs.samples && (masks_ || knobs.culling != Culling::Bones))
+        return;
+    const std::vector<vec4> samples = hemisphereSamples(knobs.samples);
+    samples_ = gpu::uploadedBuffer(*device_, "hemisphere samples", std::span<const vec4>(samples));
+    const std::vector<uint32_t> masks = knobs.culling == Culling::Bones ? maskTable(samples) : std::vector<uint32_t>{};
+    masks_ = masks.empty() ? gpu::Buffer() : gpu::uploadedBuffer(*device_, "mask table", std::span<const uint32_t>(masks));
+    sampleCount_ = knobs.samples;
+}
+
+graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+                                              const GpuScene& scene, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+{
+    const OcclusionKnobs& knobs = view.knobs.occlusion;
+    const auto pixelScale = static_cast<float>(knobs.scale);
+    graph::Pass pass = graph.add("occlusion trace");
+    pass.read(g.depth, Use::Sampled);
+    pass.read(g.normals, Use::Sampled);
+    pass.read(posed.scene, Use::AccelRead);
+    pass.read(posed.bounds, Use::StorageRead);
+    counters = pass.write(counters, Use::StorageWrite);
+    const graph::ImageRef traced =
+        pass.create("occluded, traced", {.format = kOccludedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
+
+    const gpu::Pipeline& pipeline = trace_[static_cast<size_t>(knobs.culling)];
+    pass.record([this, &view, &scene, &pipeline, addresses, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
+        recorder.dispatch(pipeline,
+                          shader::OcclusionTrace{.frame = addresses.frame,
+                                                 .scene = scene.scene().address(),
+                                                 .samples = samples_.address(),
+                                                 .masks = masks_.address(),
+                                                 .blockers = scene.blockers().address(),
+                                                 .capsules = scene.capsules().address(),
+                                                 .counters = recorder.address(counted),
+                                                 .depth = recorder.sampled(g.depth),
+                                                 .normals = recorder.sampled(g.normals),
+                                                 .occluded = recorder.storage(traced),
+                                                 .sampleCount = view.knobs.occlusion.samples,
+                                                 .blockerCount = static_cast<uint32_t>(view.characters.size()),
+                                                 .tolerance = view.knobs.occlusion.tolerance,
+                                                 .pixelScale = pixelScale,
+                                                 .frameIndex = 0},
+                          recorder.extent(traced), kTraceGroup);
+    });
+    return traced;
+}
+
+graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+                                               const GBuffer& g, graph::ImageRef traced)
+{
+    const OcclusionKnobs& knobs = view.knobs.occlusion;
+    if (knobs.filter == 0) {
+        graph.skip("occlusion filter", "occlusion.filter is 0");
+        return traced;
+    }
+    graph::Pass pass = graph.add("occlusion filter");
+    pass.read(g.depth, Use::Sampled);
+    pass.read(g.normals, Use::Sampled);
+    pass.read(traced, Use::Sampled);
+    const graph::ImageRef filtered = pass.create("occluded, filtered", {.format = kOccludedFormat, .like = traced}, Use::StorageWrite);
+    pass.record([this, &knobs, addresses, g, traced, filtered](graph::Recorder& recorder) {
+        recorder.dispatch(filter_,
+                          shader::OcclusionFilter{.frame = addresses.frame,
+                                                  .depth = recorder.sampled(g.depth),
+                                                  .normals = recorder.sampled(g.normals),
+                                                  .occluded = recorder.sampled(traced),
+                                                  .filtered = recorder.storage(filtered),
+                                                  .radius = static_cast<int>(knobs.filter / 2),
+                                                  .pixelScale = static_cast<float>(knobs.scale)},
+                          recorder.extent(filtered));
+    });
+    return filtered;
+}
+
+graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+                                                 const GBuffer& g, graph::ImageRef coarse)
+{
+    const OcclusionKnobs& knobs = view.knobs.occlusion;
+    if (knobs.scale == Scale::Full) {
+        graph.skip("occlusion upsample", "occlusion.scale is 1");
+        return coarse;
+    }
+    graph::Pass pass = graph.add("occlusion upsample");
+    pass.read(g.depth, Use::Sampled);
+    pass.read(g.normals, Use::Sampled);
+    pass.read(coarse, Use::Sampled);
+    const graph::ImageRef occluded = pass.create("occluded", {.format = kOccludedFormat, .like = g.depth}, Use::StorageWrite);
+    pass.record([this, &knobs, addresses, g, coarse, occluded](graph::Recorder& recorder) {
+        recorder.dispatch(upsample_,
+                          shader::OcclusionUpsample{.frame = addresses.frame,
+                                                    .depth = recorder.sampled(g.depth),
+                                                    .normals = recorder.sampled(g.normals),
+                                                    .coarse = recorder.sampled(coarse),
+                                                    .occluded = recorder.storage(occluded),
+                                                    .pixelScale = static_cast<float>(knobs.scale)},
+                          recorder.extent(occluded));
+    });
+    return occluded;
+}
+
+graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+                                         const GpuScene& scene, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+{
+    if (!posed.scene) {
+        const std::string_view reason = view.characters.empty() ? "no DynamicSkinned in the scene" : "the device has no ray query";
+        for (const std::string_view pass : {"occlusion trace", "occlusion filter", "occlusion upsample"})
+            graph.skip(pass, reason);
+        return {};
+    }
+    prepare(view.knobs.occlusion);
+    const graph::ImageRef traced = declareTrace(graph, view, addresses, scene, g, posed, counters);
+    return declareUpsample(graph, view, addresses, g, declareFilter(graph, view, addresses, g, traced));
+}
+
+} // namespace antumbra::render

@@ -1,0 +1,120 @@
+#include "render/shadow/reference.h"
+
+#include <array>
+#include <bit>
+
+namespace antumbra::render {
+
+namespace {
+
+using graph::Use;
+
+constexpr uvec2 kTraceGroup{16, 8};      // pixels, as in occlusion_trace.comp
+constexpr uint32_t kSamplesAFrame = 64;  // small enough to keep a live view usable
+constexpr uint32_t kLiveSamples = 4096;  // where a view asks for the reference and no number is set
+constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
+
+/// FNV-1a over the bytes of trivially copyable values.
+class Fingerprint
+{
+public:
+    template <class T>
+    Fingerprint& add(const T& value)
+    {
+        for (const auto byte : std::bit_cast<std::array<unsigned char, sizeof(T)>>(value))
+            hash_ = (hash_ ^ byte) * 0x100000001b3ull;
+        return *this;
+    }
+    [[nodiscard]] uint64_t value() const { return hash_; }
+
+private:
+    uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+uint32_t wantedSamples(const Knobs& knobs)
+{
+    if (knobs.reference.samples > 0)
+        return knobs.reference.samples;
+    return knobs.view == ViewMode::Difference || knobs.view == ViewMode::Reference ? kLiveSamples : 0;
+}
+
+} // namespace
+
+uint64_t ReferenceSystem::fingerprint(const FrameView& view, uvec2 extent)
+{
+    Fingerprint print;
+    print.add(extent).add(view.camera.eye).add(view.camera.rotation).add(view.camera.verticalFovRadians);
+    print.add(view.environment.image).add(view.environment.rotationRadians).add(view.environment.intensity);
+    for (const StaticDraw& draw : view.statics)
+        print.add(draw.model).add(draw.world);
+    for (const CharacterDraw& draw : view.characters)
+        print.add(draw.slot).add(draw.model).add(draw.world).add(draw.poseVersion);
+    return print.value();
+}
+
+graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+                                         const GpuScene& scene, const GBuffer& g, const Posed& posed)
+{
+    const uint32_t wanted = wantedSamples(view.knobs);
+    if (wanted == 0 || !posed.scene) {
+        graph.skip("reference trace", wanted == 0 ? "reference.samples is 0" : "nothing moves, or the device has no ray query");
+        graph.skip("reference accumulate", wanted == 0 ? "reference.samples is 0" : "nothing moves, or the device has no ray query");
+        frames_ = 0;
+        return {};
+    }
+    if (!trace_) {
+        const std::array<gpu::ShaderDefine, 2> defines{{{"CULLING", 0}, {"REFERENCE", 1}}};
+        trace_ = computePipeline(*device_, "occlusion_trace.comp", defines);
+        accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
+    }
+    const uvec2 extent = graph.extent(g.depth);
+    const graph::History history = graph.history("reference mean", {.format = kMeanFormat, .extent = extent}, history_);
+    const uint64_t now = fingerprint(view, extent);
+    if (now != seen_ || !history.valid)
+        frames_ = 0;
+    seen_ = now;
+    samplesAFrame_ = kSamplesAFrame;
+
+    graph::ImageRef traced;
+    if (samples() < wanted) {
+        graph::Pass pass = graph.add("reference trace");
+        pass.read(g.depth, Use::Sampled);
+        pass.read(g.normals, Use::Sampled);
+        pass.read(posed.scene, Use::AccelRead);
+        traced = pass.create("reference, traced", {.format = kMeanFormat, .like = g.depth}, Use::StorageWrite);
+        const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
+        pass.record([this, &scene, addresses, g, traced, own, frame = frames_](graph::Recorder& recorder) {
+            recorder.dispatch(trace_,
+                              shader::OcclusionTrace{.frame = addresses.frame,
+                                                     .scene = scene.scene().address(),
+                                                     .counters = recorder.address(own),
+                                                     .depth = recorder.sampled(g.depth),
+                                                     .normals = recorder.sampled(g.normals),
+                                                     .occluded = recorder.storage(traced),
+                                                     .sampleCount = kSamplesAFrame,
+                                                     .pixelScale = 1.0f,
+                                                     .frameIndex = frame},
+                              recorder.extent(traced), kTraceGroup);
+        });
+    } else {
+        graph.skip("reference trace", "reference.samples are reached");
+    }
+
+    graph::Pass pass = graph.add("reference accumulate");
+    pass.read(history.before, Use::Sampled);
+    if (traced)
+        pass.read(traced, Use::Sampled);
+    const graph::ImageRef mean = pass.write(history.now, Use::StorageWrite);
+    pass.record([this, history, traced, mean, frame = frames_](graph::Recorder& recorder) {
+        recorder.dispatch(accumulate_,
+                          shader::ReferenceAccumulate{.now = recorder.storage(mean),
+                                                      .before = recorder.sampled(history.before),
+                                                      .traced = traced ? recorder.sampled(traced) : shader::kNothingTraced,
+                                                      .frameCount = frame},
+                          recorder.extent(mean));
+    });
+    frames_ += traced ? 1 : 0;
+    return mean;
+}
+
+} // namespace antumbra::render

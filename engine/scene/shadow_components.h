@@ -1,0 +1,60 @@
+// The components that analytic and distance-field shadows are made from: what shines, what blocks. Facts only, as in components.h.
+#pragma once
+
+#include "base/math.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace antumbra::scene {
+
+enum class LightShape { Quad, Disk, Sphere, Cylinder, Polygon, Mesh };
+enum class LightShadow { None, Analytic, Triangles, Traced, Ratio, Article, TwoSided, Reference };
+
+/// Flat shapes lie in the local XZ plane and shine along +Y; a cylinder lies along Y; Mesh is the entity's own.
+struct AreaLight
+{
+    static constexpr uint32_t kGreatestOutline = 32;
+
+    LightShape shape = LightShape::Quad;
+    vec2 size{1};                                 // Quad: edges along X and Z
+    vec2 radii{0.5f};                             // Disk: along X and Z; Sphere, Cylinder: x
+    float length = 1;                             // Cylinder
+    std::array<vec2, kGreatestOutline> outline{}; // Polygon: convex, x and z
+    uint32_t outlineCount = 0;
+    vec3 radiance{1}; // W/(m^2 sr)
+    bool isTwoSided = false;
+    std::optional<LightShadow> shadow; // none: as the knob area.shadow says
+};
+
+enum class OccluderShape { Hulls, Triangles };
+
+/// Takes part in analytic shadows.
+struct Occluder
+{
+    OccluderShape shape = OccluderShape::Hulls;
+    uint32_t greatestVertices = 32; // of one hull
+};
+
+enum class SDFShape { Sphere, Box, RoundedBox, Torus, Capsule, Plane };
+enum class SDFOperation { Union, Subtract, Intersect, SmoothUnion };
+
+/// One step in making the distance field `field`: steps run by `order`, equal ones as the scene lists them.
+struct SDFPrimitive
+{
+    SDFShape shape = SDFShape::Sphere;
+    vec3 centre{0};          // Capsule: one end
+    vec3 end{0};             // Capsule: the other
+    vec3 halfExtent{0.5f};   // Box, RoundedBox (without its rounding)
+    vec3 direction{0, 1, 0}; // unit; Torus: axis, Plane: normal
+    float radius = 0.5f;     // Sphere, Capsule, RoundedBox: rounding, Torus: major
+    float minorRadius = 0.1f;
+    float offset = 0; // Plane: along the normal
+    SDFOperation operation = SDFOperation::Union;
+    float blend = 0; // SmoothUnion: k
+    int32_t order = 0;
+    uint32_t field = 0; // into SceneFile::fields
+};
+
+} // namespace antumbra::scene
