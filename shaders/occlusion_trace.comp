@@ -24,16 +24,15 @@ layout(buffer_reference, scalar) readonly buffer Capsules { CapsuleBlock block[]
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { OcclusionTrace pc; };
 
-// A subgroup takes pixels four apart: they share a rotation, so their rays stay together. Each row of the group is one rotation.
-layout(local_size_x = 8, local_size_y = 16) in;
-const uvec2 kGroupPixels = uvec2(16, 8);
+// One thread a pixel, for finding the rays that survive; then the group's rays are dealt out evenly, so that no lane idles.
+layout(local_size_x = 16, local_size_y = 8) in;
+const uint kGroupSize = 128u;
 
 struct Receiver
 {
     vec3 origin;
     vec3 normal;
     mat3 frame; // of the samples
-    float unshadowed; // luminance of the unshadowed irradiance, for the tolerance
 };
 
 // What the samples found: sums of the SH basis over hidden directions, from which the irradiance follows once.
@@ -75,45 +74,48 @@ void traceAll(Receiver r)
 
 #else
 
-void traceSurvivors(Receiver r, uint base, uint survivors, float far)
+// The samples base..base + 127 that may hit something that moves, and how far their rays must go.
+struct Survivors
 {
-    raysTraced += bitCount(survivors);
-    while (survivors != 0u) {
-        uint i = base + uint(findLSB(survivors));
-        survivors &= survivors - 1u;
-        vec3 direction = r.frame * localSample(i);
-        if (dynamicHitsFirst(pc.scene, r.origin, direction, far))
-            addHidden(direction);
-    }
-}
+    uvec4 samples;
+    float far;
+};
+
+uint wordCount(uint base) { return min(4u, (pc.sampleCount - base) / 32u); }
 
 #if CULLING == 1 || CULLING == 2
 
-void traceCulled(Receiver r)
+uint samplesInCone(uint base, vec3 axis, float cosine)
+{
+    uint inside = 0u;
+    uint end = base + min(32u, pc.sampleCount - base);
+    for (uint i = base; i < end; ++i)
+        inside |= dot(localSample(i), axis) >= cosine ? 1u << (i - base) : 0u;
+    return inside;
+}
+
+Survivors survivorsAmong(Receiver r, uint base)
 {
     // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
-    float far = 0.0;
-    for (uint base = 0u; base < pc.sampleCount; base += 32u) {
-        uint survivors = 0u;
-        uint count = min(32u, pc.sampleCount - base);
-        for (uint k = 0u; k < pc.blockerCount; ++k) {
-            BlockerBlock blocker = Blockers(pc.blockers).block[k];
-            if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
-                continue;
-            Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
-            vec3 axis = cone.axis * r.frame; // into the sample frame
-            for (uint i = 0u; i < count; ++i)
-                survivors |= cone.all || dot(localSample(base + i), axis) >= cone.cosine ? 1u << i : 0u;
-            far = max(far, cone.height);
-            coneCount += base == 0u ? 1u : 0u;
-        }
-        traceSurvivors(r, base, survivors, CULLING == 2 ? far : kRayFar);
+    Survivors survivors = Survivors(uvec4(0u), 0.0);
+    for (uint k = 0u; k < pc.blockerCount; ++k) {
+        BlockerBlock blocker = Blockers(pc.blockers).block[k];
+        if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
+            continue;
+        Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
+        vec3 axis = cone.axis * r.frame; // into the sample frame
+        uint words = wordCount(base);
+        for (uint w = 0u; w < words; ++w)
+            survivors.samples[w] |= samplesInCone(base + 32u * w, axis, cone.all ? -2.0 : cone.cosine);
+        survivors.far = max(survivors.far, CULLING == 2 ? cone.height : kRayFar);
+        coneCount += base == 0u ? 1u : 0u;
     }
+    return survivors;
 }
 
 #else
 
-// Candidates of one word that meet the capsule; ends relative to the origin, in the sample frame.
+// Candidates of one word that meet the capsule; its ends relative to the origin, in the sample frame.
 uint samplesThatHit(uint candidates, uint base, vec3 a, vec3 b, float radius)
 {
     uint hits = 0u;
@@ -127,58 +129,124 @@ uint samplesThatHit(uint candidates, uint base, vec3 a, vec3 b, float radius)
     return hits;
 }
 
-void addCapsule(Receiver r, CapsuleBlock capsule, uint base, inout uvec4 survivors, inout float far)
+void addCapsule(Receiver r, CapsuleBlock capsule, uint base, inout Survivors survivors)
 {
     float above = max(dot(capsule.a - r.origin, r.normal), dot(capsule.b - r.origin, r.normal));
     if (above <= -capsule.radius)
         return;
     Cone cone = coneOfCapsule(r.origin, r.normal, capsule.a, capsule.b, capsule.radius);
-    far = max(far, cone.height);
+    survivors.far = max(survivors.far, cone.height);
     coneCount += base == 0u ? 1u : 0u;
     uint cell = maskCell(cone.axis * r.frame, cone.halfAngle);
     uvec4 candidates = cone.all ? uvec4(0xffffffffu) : Masks(pc.masks).samples[cell * ((pc.sampleCount + 127u) / 128u) + base / 128u];
-    candidates &= ~survivors;
+    candidates &= ~survivors.samples;
     vec3 a = (capsule.a - r.origin) * r.frame, b = (capsule.b - r.origin) * r.frame;
-    uint words = min(4u, (pc.sampleCount - base) / 32u);
+    uint words = wordCount(base);
     for (uint w = 0u; w < words; ++w)
-        survivors[w] |= samplesThatHit(candidates[w], base + 32u * w, a, b, capsule.radius);
+        survivors.samples[w] |= samplesThatHit(candidates[w], base + 32u * w, a, b, capsule.radius);
 }
 
-void traceBones(Receiver r)
+Survivors survivorsAmong(Receiver r, uint base)
 {
-    float far = 0.0;
+    Survivors survivors = Survivors(uvec4(0u), 0.0);
+    for (uint k = 0u; k < pc.blockerCount; ++k) {
+        BlockerBlock blocker = Blockers(pc.blockers).block[k];
+        if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
+            continue;
+        if (isNegligible(coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius), r.normal))
+            continue;
+        for (uint c = 0u; c < blocker.capsuleCount; ++c)
+            addCapsule(r, Capsules(pc.capsules).block[blocker.firstCapsule + c], base, survivors);
+    }
+    return survivors;
+}
+
+#endif
+
+// The group's rays, each the number of its pixel and of its sample, and what every pixel's rays start from.
+const uint kListSize = 4096u;
+shared uint rayCount;
+shared uint rays[kListSize];
+shared uvec4 hits[kGroupSize];
+shared vec3 origins[kGroupSize];
+shared vec3 tangents[kGroupSize];
+shared vec3 normals[kGroupSize];
+shared float fars[kGroupSize];
+
+uint groupSum(uint value)
+{
+    barrier();
+    rayCount = 0u;
+    barrier();
+    atomicAdd(rayCount, value);
+    barrier();
+    return rayCount;
+}
+
+uint bitCountOf(uvec4 words)
+{
+    uvec4 counts = uvec4(bitCount(words));
+    return counts.x + counts.y + counts.z + counts.w;
+}
+
+// Traces the group's surviving rays, at most kListSize, and adds what this pixel's rays found.
+void traceTogether(Receiver r, uvec4 survivors, uint base)
+{
+    uint me = gl_LocalInvocationIndex;
+    barrier();
+    rayCount = 0u;
+    hits[me] = uvec4(0u);
+    barrier();
+    uint next = atomicAdd(rayCount, bitCountOf(survivors));
+    for (uint w = 0u; w < 4u; ++w)
+        for (uint word = survivors[w]; word != 0u; word &= word - 1u)
+            rays[next++] = me << 7u | w << 5u | uint(findLSB(word));
+    barrier();
+    for (uint i = me; i < rayCount; i += kGroupSize) {
+        uint pixel = rays[i] >> 7u, bit = rays[i] & 127u;
+        vec3 direction = mat3(tangents[pixel], cross(normals[pixel], tangents[pixel]), normals[pixel]) * localSample(base + bit);
+        if (dynamicHitsFirst(pc.scene, origins[pixel], direction, fars[pixel]))
+            atomicOr(hits[pixel][bit >> 5u], 1u << (bit & 31u));
+    }
+    barrier();
+    for (uint w = 0u; w < 4u; ++w)
+        for (uint word = hits[me][w]; word != 0u; word &= word - 1u)
+            addHidden(r.frame * localSample(base + 32u * w + uint(findLSB(word))));
+}
+
+void traceSurvivors(Receiver r, bool isSurface)
+{
+    uint me = gl_LocalInvocationIndex;
+    origins[me] = r.origin;
+    tangents[me] = r.frame[0];
+    normals[me] = r.normal;
     for (uint base = 0u; base < pc.sampleCount; base += 128u) {
-        uvec4 survivors = uvec4(0u);
-        for (uint k = 0u; k < pc.blockerCount; ++k) {
-            BlockerBlock blocker = Blockers(pc.blockers).block[k];
-            if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
-                continue;
-            if (isNegligible(coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius), r.normal))
-                continue;
-            for (uint c = 0u; c < blocker.capsuleCount; ++c)
-                addCapsule(r, Capsules(pc.capsules).block[blocker.firstCapsule + c], base, survivors, far);
+        Survivors survivors = Survivors(uvec4(0u), 0.0);
+        if (isSurface)
+            survivors = survivorsAmong(r, base);
+        uint mine = bitCountOf(survivors.samples);
+        raysTraced += mine;
+        fars[me] = survivors.far;
+        uint all = groupSum(mine);
+        if (all == 0u)
+            continue;
+        if (all <= kListSize) {
+            traceTogether(r, survivors.samples, base);
+            continue;
         }
-        uint words = min(4u, (pc.sampleCount - base) / 32u);
-        for (uint w = 0u; w < words; ++w)
-            traceSurvivors(r, base + 32u * w, survivors[w], far);
+        // A word of every pixel always fits.
+        for (uint w = 0u; w < 4u; ++w) {
+            uvec4 word = uvec4(0u);
+            word[w] = survivors.samples[w];
+            traceTogether(r, word, base);
+        }
     }
 }
 
 #endif
-#endif
 
-vec3 occludedIrradiance(Receiver r)
+vec3 hiddenIrradiance()
 {
-    for (int i = 0; i < 9; ++i)
-        hidden[i] = 0.0;
-#if CULLING == 0
-    traceAll(r);
-#elif CULLING == 3
-    traceBones(r);
-#else
-    traceCulled(r);
-#endif
-    raysConsidered = pc.sampleCount;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 9; ++i)
         sum += Frame(pc.frame).block.radianceSh[i] * hidden[i];
@@ -188,41 +256,50 @@ vec3 occludedIrradiance(Receiver r)
 void count()
 {
     uint considered = subgroupAdd(raysConsidered), traced = subgroupAdd(raysTraced), cones = subgroupAdd(coneCount);
-    if (subgroupElect()) {
+    if (subgroupElect() && considered > 0u) {
         atomicAdd(Counters(pc.counters).block.raysConsidered, considered);
         atomicAdd(Counters(pc.counters).block.raysTraced, traced);
         atomicAdd(Counters(pc.counters).block.cones, cones);
     }
 }
 
-void main()
+Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 {
-    uvec2 lane = uvec2(gl_LocalInvocationID.x % 4u, gl_LocalInvocationID.x / 4u);
-    uvec2 offset = uvec2(gl_LocalInvocationID.y % 4u, gl_LocalInvocationID.y / 4u);
-    uvec2 pixel = gl_WorkGroupID.xy * kGroupPixels + lane * kRotationPattern + offset;
-    uvec2 extent = uvec2(imageSize(storageImages[pc.occluded]));
-    if (any(greaterThanEqual(pixel, extent)))
-        return;
-
-    uvec2 fullExtent = uvec2(textureSize(sampledImages[pc.depth], 0));
-    uvec2 fullPixel = min(uvec2((vec2(pixel) + 0.5) * pc.pixelScale), fullExtent - 1u);
-    float depth = texelFetch(sampledImages[pc.depth], ivec2(fullPixel), 0).x;
-    if (depth == 0.0) {
-        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(0.0));
-        return;
-    }
     Frame frame = Frame(pc.frame);
-    vec4 normals = texelFetch(sampledImages[pc.normals], ivec2(fullPixel), 0);
+    vec4 octahedral = texelFetch(sampledImages[pc.normals], ivec2(fullPixel), 0);
     vec3 position = worldPosition(frame.block, vec2(fullPixel) + 0.5, depth);
-
-    Receiver r;
-    r.normal = unitFromOctahedral(normals.zw);
-    r.origin = rayOrigin(position, unitFromOctahedral(normals.xy), frame.block.eye);
     float rotation = pixelRotation(pixel);
 #ifdef REFERENCE
     rotation += kTau * fract(float(pc.frameIndex) * 0.61803398875);
 #endif
-    r.frame = turnedFrame(r.normal, rotation);
-    imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(occludedIrradiance(r), float(coneCount)));
+    vec3 normal = unitFromOctahedral(octahedral.zw);
+    return Receiver(rayOrigin(position, unitFromOctahedral(octahedral.xy), frame.block.eye), normal, turnedFrame(normal, rotation));
+}
+
+void main()
+{
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uvec2 extent = uvec2(imageSize(storageImages[pc.occluded]));
+    uvec2 fullExtent = uvec2(textureSize(sampledImages[pc.depth], 0));
+    uvec2 fullPixel = min(uvec2((vec2(pixel) + 0.5) * pc.pixelScale), fullExtent - 1u);
+    bool isInside = all(lessThan(pixel, extent));
+    float depth = isInside ? texelFetch(sampledImages[pc.depth], ivec2(fullPixel), 0).x : 0.0;
+    bool isSurface = depth > 0.0;
+
+    for (int i = 0; i < 9; ++i)
+        hidden[i] = 0.0;
+    Receiver r = Receiver(vec3(0.0), vec3(0.0, 1.0, 0.0), mat3(1.0));
+    if (isSurface) {
+        r = receiverAt(pixel, fullPixel, depth);
+        raysConsidered = pc.sampleCount;
+    }
+#if CULLING == 0
+    if (isSurface)
+        traceAll(r);
+#else
+    traceSurvivors(r, isSurface); // all of the group, for its barriers
+#endif
+    if (isInside)
+        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(), float(coneCount)));
     count();
 }

@@ -12,6 +12,7 @@ layout(location = 0) out vec4 outColor; // sRGB-encoded, as the picture is
 
 void main()
 {
-    float coverage = texture(sampler2D(sampledImages[pc.font], samplers[kLinearClamp]), uv).r;
+    // Glyphs are drawn texel for pixel, all else reads one white texel: there is nothing to filter.
+    float coverage = texture(sampler2D(sampledImages[pc.font], samplers[kNearestClamp]), uv).r;
     outColor = vec4(color.rgb, color.a * coverage);
 }

@@ -38,9 +38,10 @@ void main()
     for (int k = 1; k < 4; ++k)
         if (influence.weights[k] != 0.0)
             blended += Matrices(pc.joints).value[joints[k]] * influence.weights[k];
-    // Normals turn by the cofactor matrix, which stays finite where the inverse would not.
+    // Normals turn by the cofactor matrix, which stays finite where the inverse would not; mirrored parts keep theirs outside.
     mat3 linear = mat3(blended);
-    vec3 turned = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1])) * normal;
+    mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
+    vec3 turned = cofactor * normal * (dot(linear[0], cofactor[0]) < 0.0 ? -1.0 : 1.0);
     float squared = dot(turned, turned);
     OutVectors(pc.posedPositions).value[vertex] = vec3(blended * vec4(position, 1.0));
     OutVectors(pc.posedNormals).value[vertex] = squared > 0.0 ? turned * inversesqrt(squared) : vec3(0.0, 1.0, 0.0);

@@ -21,10 +21,17 @@ void buildHistory(const SampleWindow& times, const char* title)
                      {ImGui::GetContentRegionAvail().x, kHistoryHeight});
 }
 
+void buildQuiet(const char* text)
+{
+    ImGui::PushStyleColor(ImGuiCol_Text, render::kOverlayQuiet);
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
+}
+
 void buildHeadline(const PanelInput& input)
 {
-    ImGui::TextColored(render::kOverlayAccent, "%s", static_cast<const char*>(Line("{}", input.scene)));
-    ImGui::TextDisabled("%s", static_cast<const char*>(Line("{}", input.device)));
+    buildRow("scene", Line("{}", input.scene), render::kOverlayAccent);
+    buildQuiet(Line("{}", input.device));
     const std::optional<double> frame = input.profiler.frameMilliseconds().median();
     buildRow("frame", frame ? Line("{:.2f} ms  {:.0f} fps", *frame, 1000 / *frame) : Line("-"), render::kOverlayText);
     const std::optional<double> gpu = input.profiler.gpuMilliseconds().median();
@@ -56,12 +63,10 @@ bool buildPass(const PassTimes& pass, std::optional<double> frame, bool isGraphe
 void buildAbsent(const graph::AbsentPass& pass)
 {
     // As reasonOf() says it, without its string.
-    const Line line = !pass.reason.empty() ? Line("{}: {}", pass.name, pass.reason)
+    const Line line = !pass.reason.empty()  ? Line("{}: {}", pass.name, pass.reason)
                       : pass.unread.empty() ? Line("{}: it writes nothing", pass.name)
                                             : Line("{}: nothing reads '{}'", pass.name, pass.unread);
-    ImGui::PushStyleColor(ImGuiCol_Text, render::kOverlayQuiet);
-    ImGui::TextWrapped("%s", static_cast<const char*>(line));
-    ImGui::PopStyleColor();
+    buildQuiet(line);
 }
 
 const SampleWindow* timesOf(const Profiler& profiler, std::string_view name)

@@ -58,13 +58,11 @@ void moveSplit(const Knobs& knobs, uint32_t& splitColumn, uvec2 extent, bool isL
     if (splitColumn == 0 || !(isLineVisible || isDragged))
         return;
     const float x = static_cast<float>(splitColumn);
-    const float bottom = static_cast<float>(extent.y);
     ImDrawList& background = *ImGui::GetBackgroundDrawList();
-    background.AddLine({x, 0}, {x, bottom}, ImGui::GetColorU32(render::kOverlayAccent));
+    background.AddLine({x, 0}, {x, static_cast<float>(extent.y)}, ImGui::GetColorU32(render::kOverlayAccent));
     const Line left("final"), right("{}", nameOf(viewKnob(), viewKnob().read(knobs)));
-    const float y = bottom - ImGui::GetTextLineHeight() - 4;
-    background.AddText({x - ImGui::CalcTextSize(left).x - 5, y}, ImGui::GetColorU32(render::kOverlayText), left);
-    background.AddText({x + 6, y}, ImGui::GetColorU32(render::kOverlayText), right);
+    background.AddText({x - ImGui::CalcTextSize(left).x - 5, 4}, ImGui::GetColorU32(render::kOverlayText), left);
+    background.AddText({x + 6, 4}, ImGui::GetColorU32(render::kOverlayText), right);
 }
 
 } // namespace antumbra::app

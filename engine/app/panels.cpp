@@ -7,9 +7,10 @@ namespace antumbra::app {
 
 namespace {
 
-constexpr float kMargin = 8;       // pixels, as all below
-constexpr float kPassesWidth = 224;
+constexpr float kMargin = 8; // pixels, as all below
+constexpr float kPassesWidth = 208;
 constexpr float kControlsWidth = 262;
+constexpr float kWidePicture = 960; // from here on all sections start open
 constexpr ImGuiWindowFlags kPinned = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing;
 
@@ -43,16 +44,20 @@ void buildKeys(std::span<const KeyHint> keys)
 
 void buildControls(const PanelInput& input, render::Knobs& knobs, uint32_t& splitColumn, uvec2 extent)
 {
-    const auto isOpen = [](const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); };
-    if (isOpen("view"))
+    const bool isWide = static_cast<float>(extent.x) >= kWidePicture;
+    const auto isOpen = [](const char* title, bool atFirst) {
+        ImGui::SetNextItemOpen(atFirst, ImGuiCond_Once);
+        return ImGui::CollapsingHeader(title);
+    };
+    if (isOpen("view", true))
         buildViews(knobs, splitColumn, extent.x);
-    if (isOpen("knobs"))
+    if (isOpen("knobs", isWide))
         buildKnobs(knobs);
-    if (isOpen("counters"))
+    if (isOpen("counters", isWide))
         buildCounters(input.report.counters, knobs, extent);
-    if (isOpen("memory"))
+    if (isOpen("memory", isWide))
         buildMemory(input.memory);
-    if (!input.keys.empty() && isOpen("keys"))
+    if (!input.keys.empty() && isOpen("keys", isWide))
         buildKeys(input.keys);
 }
 

@@ -126,24 +126,11 @@ void Window::listen()
     });
 }
 
-void Window::beginPoll()
+void Window::poll()
 {
     hands_.keysPressed.reset();
     pointer_.wheel = 0;
-}
-
-void Window::poll()
-{
-    beginPoll();
     glfwPollEvents();
-    readPointer();
-    readGamepad();
-}
-
-void Window::wait(double seconds)
-{
-    beginPoll();
-    glfwWaitEventsTimeout(seconds);
     readPointer();
     readGamepad();
 }

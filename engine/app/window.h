@@ -37,8 +37,6 @@ public:
 
     /// Takes what happened since the last call, without waiting.
     void poll();
-    /// Waits until something happens, at most `seconds`.
-    void wait(double seconds);
     [[nodiscard]] const HandState& hands() const { return hands_; }
     [[nodiscard]] const Pointer& pointer() const { return pointer_; }
 
@@ -46,7 +44,6 @@ private:
     explicit Window(GLFWwindow* window);
 
     void listen();
-    void beginPoll();
     void readPointer();
     void readGamepad();
 

@@ -49,6 +49,7 @@ void setMeasures(ImGuiStyle& style)
     style.GrabRounding = 2;
     style.GrabMinSize = 7;
     style.ScrollbarSize = 8;
+    style.AntiAliasedLinesUseTex = false; // needs filtered texels, which the fragment shader does without
 }
 
 } // namespace

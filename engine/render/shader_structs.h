@@ -21,4 +21,6 @@ using uint = uint32_t;
 
 #include "shaders/shared/overlay.h"
 
+#include "shaders/shared/eval.h"
+
 } // namespace antumbra::shader

@@ -14,7 +14,7 @@ namespace antumbra::scene {
 class PoseStore
 {
 public:
-    /// A pose as the animator says.
+    /// A slot for `owner`, posed as the animator says.
     Pose give(ecs::Entity owner, const Animator& animator, const Model& model);
     /// Frees the slots of the owners that `isGone` is true of; it is asked once for every slot in use.
     template <class Predicate>
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] std::span<const mat4> joints(const Pose& pose) const { return {&joints_[pose.firstJoint], pose.jointCount}; }
     [[nodiscard]] std::span<const float> morphWeights(const Pose& pose) const;
 
-    /// Poses as the animator says; the version changes exactly when a matrix or a weight does.
+    /// Makes the pose what the animator says; its version changes exactly when a matrix or a weight does.
     void update(Pose& pose, const Animator& animator, const Model& model);
 
 private:
@@ -53,7 +53,7 @@ void assignPoses(
     ecs::Each<const Pose, ecs::With<Drawable>, ecs::With<DynamicSkinned>> characters, ecs::Commands commands, const Assets& assets,
     PoseStore& poses);
 
-/// A system: clips advance by speed times `step`, start again at their ends (at either end, as the speed's sign says), and cross-fade.
+/// A system: clips advance by speed times `step`, which may run backwards, loop, and cross-fade.
 /// One long step gives the pose that many short ones give, so a still picture at a time takes one call.
 void animate(ecs::Each<Animator, Pose, const Drawable> characters, const Assets& assets, PoseStore& poses, ecs::Seconds step);
 

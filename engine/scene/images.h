@@ -1,4 +1,5 @@
-// Pictures in and out through OpenImageIO: HDR, EXR, PNG, JPEG.
+// Pictures in and out through OpenImageIO: HDR, EXR, PNG, JPEG, known by their first bytes and not by their names.
+// Refuses more than 16384 pixels a side and more than 512 MiB decoded, before anything is allocated.
 #pragma once
 
 #include "base/file.h"
@@ -32,6 +33,7 @@ struct ImageF
 ImageF loadRadiance(const Path& path);
 /// Any picture as it stands in the file, linear where the format is.
 ImageF loadImageF(const Path& path);
+/// PNG or JPEG; `name` is what an Error calls it. Alpha is not multiplied in.
 Image8 decodeImage8(std::span<const std::byte> encoded, const std::string& name);
 
 void saveExr(const Path& path, const ImageF& image);

@@ -31,7 +31,7 @@ struct Mesh
 {
     std::vector<vec3> positions;             // metres, bind space
     std::vector<vec3> normals;               // unit
-    std::vector<vec2> uvs;                   // TEXCOORD_0, zero where the file has none
+    std::vector<vec2> uvs;                   // of the base colour texture; zero where there are none
     std::vector<vec2> bakeUvs;               // TEXCOORD_1, or empty
     std::vector<Influence> influences;       // into Model::joints
     std::vector<uint32_t> indices;           // three a triangle, counter-clockwise seen from outside

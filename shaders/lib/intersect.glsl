@@ -16,15 +16,12 @@ bool hitsCapsule(vec3 origin, vec3 direction, vec3 a, vec3 b, float radius)
 {
     vec3 d = b - a;
     vec3 r = a - origin;
-    float e = dot(d, d);
-    float f = dot(direction, d);
-    float c = dot(direction, r);
-    float g = dot(d, r);
-    float denominator = e - f * f; // direction is unit
-    float t = denominator > 1.0e-7 * e ? clamp((f * c - g) / denominator, 0.0, 1.0) : 0.0;
-    float s = max(0.0, c + t * f);
-    t = clamp((s * f - g) / max(e, 1.0e-20), 0.0, 1.0);
-    s = max(0.0, c + t * f);
+    // Of the two lines first, seen along the ray: |d|^2 - (d . direction)^2 would cancel where they are nearly parallel.
+    vec3 across = d - dot(d, direction) * direction;
+    float t = clamp(-dot(across, r) / max(dot(across, across), 1.0e-30), 0.0, 1.0);
+    float s = max(0.0, dot(r + t * d, direction));
+    t = clamp(dot(s * direction - r, d) / max(dot(d, d), 1.0e-30), 0.0, 1.0);
+    s = max(0.0, dot(r + t * d, direction));
     vec3 gap = r + t * d - s * direction;
     return dot(gap, gap) <= radius * radius;
 }

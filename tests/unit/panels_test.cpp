@@ -22,7 +22,7 @@ protected:
         ImGui::SetCurrentContext(context_);
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.DisplaySize = {640, 720};
+        io.DisplaySize = {960, 720};
         io.Fonts->Build();
         render::applyOverlayStyle(ImGui::GetStyle());
         frame();
@@ -69,14 +69,15 @@ protected:
         frame();
     }
 
-    /// Over the column of controls. An even number of clicks a row leaves headers as open as they were.
+    /// From `left` on, all within the column of controls. An even number of clicks a row leaves headers as open as they were.
     template <class Visit>
     void clickAllOver(float left, float bottom, Visit visit)
     {
         for (float y = 10; y < bottom; y += 5)
             for (int column = 0; column < 20; ++column) {
-                click(left + 12 * static_cast<float>(column), y);
-                visit();
+                const float x = left + 12 * static_cast<float>(column);
+                click(x, y);
+                visit(x, y);
             }
     }
 
@@ -119,7 +120,7 @@ TEST_F(PanelsTest, HiddenOnesDrawOnlyTheMessage)
 TEST_F(PanelsTest, EveryViewHasAButton)
 {
     std::set<double> seen;
-    clickAllOver(372, 90, [&] { seen.insert(static_cast<double>(knobs_.view)); });
+    clickAllOver(704, 90, [&](float, float) { seen.insert(static_cast<double>(knobs_.view)); });
     const auto view = std::ranges::find(render::knobTable(), "view", &render::KnobDescription::key);
     EXPECT_EQ(seen.size(), view->choices.size());
 }
@@ -127,7 +128,8 @@ TEST_F(PanelsTest, EveryViewHasAButton)
 TEST_F(PanelsTest, EveryKnobIsReachedAndStaysInItsRange)
 {
     std::set<std::string_view> reached;
-    clickAllOver(372, 300, [&] {
+    clickAllOver(704, 300, [&](float x, float y) {
+        click(x, y + 34); // into the list that a choice opens
         for (const render::KnobDescription& knob : render::knobTable()) {
             if (knob.read(knobs_) != knob.read(render::Knobs{}))
                 reached.insert(knob.key);
@@ -140,10 +142,10 @@ TEST_F(PanelsTest, EveryKnobIsReachedAndStaysInItsRange)
 
 TEST_F(PanelsTest, TheRightButtonMovesTheSplit)
 {
-    dragRight(300, 333, 600);
-    EXPECT_EQ(splitColumn_, 333u);
-    dragRight(333, 9999, 600);
-    EXPECT_EQ(splitColumn_, 640u);
+    dragRight(500, 533, 600);
+    EXPECT_EQ(splitColumn_, 533u);
+    dragRight(533, 9999, 600);
+    EXPECT_EQ(splitColumn_, 960u);
 }
 
 TEST_F(PanelsTest, TheSplitStaysWhileTheMouseIsOverAPanel)
@@ -155,7 +157,7 @@ TEST_F(PanelsTest, TheSplitStaysWhileTheMouseIsOverAPanel)
 
 TEST_F(PanelsTest, TheSplitStaysInAPictureThatShrinks)
 {
-    splitColumn_ = 640;
+    splitColumn_ = 960;
     ImGui::GetIO().DisplaySize = {320, 240};
     frame();
     EXPECT_EQ(splitColumn_, 320u);

@@ -36,10 +36,8 @@ protected:
 
     std::array<graph::PassTime, 2> passes_{{{"occlusion trace", 12.5}, {"tonemap", std::nullopt}}};
     std::array<graph::AbsentPass, 2> absent_{{{"skinning", "no DynamicSkinned in view", {}}, {"upsample", {}, "occluded"}}};
-    render::FrameReport report_{.passes = passes_,
-                                .absent = absent_,
-                                .counters = {.raysConsidered = 4000000000u, .raysTraced = 7, .nanPixels = 3},
-                                .frame = 2};
+    render::FrameReport report_{
+        .passes = passes_, .absent = absent_, .counters = {.raysConsidered = 4000000000u, .raysTraced = 7, .nanPixels = 3}, .frame = 2};
     render::MemoryReport memory_{.reserved = 5000000000, .used = 4, .transient = 3, .history = 2};
     render::Knobs knobs_;
     Profiler profiler_;

@@ -1,0 +1,145 @@
+// `antumbra render`: one moment of a scene, drawn as often as asked, written once.
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/playback.h"
+#include "app/stats.h"
+#include "base/file.h"
+#include "base/log.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace antumbra::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Wanted
+{
+    render::Aov aov;
+    Path file;
+};
+
+std::vector<Wanted> wantedAovs(const RenderOptions& options)
+{
+    std::vector<Wanted> wanted;
+    for (const AovOutput& output : options.aovs) {
+        const std::optional<render::Aov> aov = render::aovOf(output.name);
+        if (!aov)
+            throw Error("no such AOV; there are color, irradiance, unshadowed, occluded, albedo, normal, depth and cones", output.name);
+        wanted.push_back({*aov, output.file});
+    }
+    if (options.output.extension() == ".exr")
+        wanted.push_back({render::Aov::Color, options.output});
+    return wanted;
+}
+
+/// A renderer before one unmoving view.
+class Still
+{
+public:
+    Still(gpu::Device& device, const RenderOptions& options)
+        : stage_(findScene(options.scene, options.settings), 0, noGameplay), renderer_(device, stage_.assets(), options.size),
+          profiler_(options.frames)
+    {
+        stage_.advanceClips(static_cast<float>(options.seconds));
+        stage_.extract(view_);
+        view_.knobs = render::resolveKnobs(deviceClassOf(device.info()), stage_.settings(), options.settings);
+    }
+
+    void draw()
+    {
+        const Clock::time_point start = Clock::now();
+        renderer_.render(view_);
+        milliseconds_ = 1000 * std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    void measure() { profiler_.record(renderer_.report(), milliseconds_); }
+
+    /// Pipelines are made, caches filled, and every pose built: those of a crowd take several frames.
+    void warmUp()
+    {
+        const size_t builds = (view_.characters.size() + view_.knobs.occlusion.builds - 1) / view_.knobs.occlusion.builds;
+        for (size_t frame = 0; frame < builds + Playback::kWarmUpFrames; ++frame)
+            draw();
+    }
+
+    /// Until the reference has all of its samples, or somebody has enough.
+    void accumulate(const InterruptGuard& interrupt)
+    {
+        const uint32_t wanted = view_.knobs.reference.samples;
+        Clock::time_point told = Clock::now();
+        while (renderer_.referenceSamples() < wanted && !interrupt.isInterrupted()) {
+            draw();
+            if (Clock::now() - told > std::chrono::seconds(2)) {
+                told = Clock::now();
+                logInfo("reference: {} of {} samples", renderer_.referenceSamples(), wanted);
+            }
+        }
+        if (renderer_.referenceSamples() < wanted)
+            logWarning("interrupted: the reference has {} of {} samples", renderer_.referenceSamples(), wanted);
+    }
+
+    render::Renderer& renderer() { return renderer_; }
+
+    [[nodiscard]] std::string stats(const gpu::DeviceInfo& device, const RenderOptions& options) const
+    {
+        return statsJson({.device = device.name,
+                          .driver = device.driver,
+                          .scene = options.scene,
+                          .size = options.size,
+                          .frames = options.frames,
+                          .knobs = view_.knobs,
+                          .profiler = profiler_,
+                          .report = renderer_.report(),
+                          .memory = renderer_.memory()});
+    }
+
+private:
+    Stage stage_;
+    render::Renderer renderer_;
+    render::FrameView view_;
+    Profiler profiler_;
+    double milliseconds_ = 0;
+};
+
+/// The picture and what was asked for beside it, from the frame that is drawn here.
+void drawAndSave(Still& still, const RenderOptions& options, const std::vector<Wanted>& wanted)
+{
+    std::vector<render::Aov> aovs;
+    for (const Wanted& each : wanted)
+        aovs.push_back(each.aov);
+    still.renderer().capture(aovs);
+    still.draw();
+    for (const Wanted& each : wanted)
+        scene::saveExr(each.file, still.renderer().captured(each.aov));
+    if (options.output.extension() == ".png")
+        scene::savePng(options.output, still.renderer().picture());
+}
+
+} // namespace
+
+ExitCode runRender(const RenderOptions& options)
+{
+    const std::vector<Wanted> wanted = wantedAovs(options);
+    gpu::Device device({});
+    Still still(device, options);
+    const InterruptGuard interrupt;
+    still.warmUp();
+    still.accumulate(interrupt);
+    drawAndSave(still, options, wanted);
+    if (!options.stats)
+        return ExitCode::Done;
+    // A frame is reported once the device is done with it, and the one above also copied what was captured.
+    for (uint32_t frame = 0; frame < gpu::kFramesInFlight; ++frame)
+        still.draw();
+    for (uint32_t frame = 0; frame < options.frames && !interrupt.isInterrupted(); ++frame) {
+        still.draw();
+        still.measure();
+    }
+    writeText(*options.stats, still.stats(device.info(), options));
+    return ExitCode::Done;
+}
+
+} // namespace antumbra::app

@@ -1,0 +1,89 @@
+// The program without a window: a script replays to the same state and the same bytes, and what is wrong ends in one line.
+#include "base/error.h"
+#include "scene/process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <unistd.h>
+
+namespace antumbra::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ProgramTest : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        folder_ = Path(testing::TempDir()) / ("antumbra_program_" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    struct Result
+    {
+        int code;
+        std::string output;
+    };
+    Result run(std::vector<std::string> arguments, std::vector<Process::Variable> environment = {}) const
+    {
+        arguments.insert(arguments.begin(), ANTUMBRA_PROGRAM);
+        const Path log = folder_ / "program.log";
+        std::filesystem::remove(log);
+        Process program(arguments, environment, log);
+        const int code = program.wait(300).value_or(-2);
+        return {code, readText(log)};
+    }
+    /// Plays the walk, and returns the line of the state hash and the last picture.
+    std::pair<std::string, std::vector<std::byte>> playWalk(const std::string& threads) const
+    {
+        const Path picture = folder_ / "last.png";
+        std::filesystem::remove(picture);
+        const Result result = run({"play", "plaza", "--headless", "--size", "192x108", "--frames", "60", "--screenshot", picture},
+                                  {{"LP_NUM_THREADS", threads}});
+        if (result.code == static_cast<int>(ExitCode::NoDevice))
+            return {"", {}};
+        EXPECT_EQ(result.code, 0) << result.output;
+        const size_t state = result.output.find("state ");
+        return {state != std::string::npos ? result.output.substr(state) : "", readFile(picture)};
+    }
+
+    Path folder_;
+};
+
+TEST_F(ProgramTest, ReplaysToTheSameBytesTwiceAndWithAnyNumberOfThreads)
+{
+    const auto first = playWalk("2");
+    if (first.second.empty()) {
+        ASSERT_EQ(std::getenv("ANTUMBRA_REQUIRE_DEVICE"), nullptr) << "no Vulkan device";
+        GTEST_SKIP() << "no Vulkan device";
+    }
+    EXPECT_THAT(first.first, HasSubstr("after 60 steps"));
+    EXPECT_EQ(playWalk("2"), first);
+    EXPECT_EQ(playWalk("1"), first);
+}
+
+TEST_F(ProgramTest, ABadScriptEndsInOneLineThatNamesIt)
+{
+    const Path script = folder_ / "bad.jsonl";
+    writeText(script, "{\"script\": 1, \"seed\": 0, \"frames\": 5}\n{\"frame\": 7}\n");
+    const Result result = run({"play", "--headless", "--script", script});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.output, HasSubstr(script.string() + ":2"));
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1);
+}
+
+TEST_F(ProgramTest, AnUnknownSceneEndsInOneLineThatListsTheKnown)
+{
+    const Result result = run({"play", "--headless", "nowhere"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("nowhere"), HasSubstr("plaza"), HasSubstr("hall")));
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1);
+}
+
+} // namespace
+} // namespace antumbra::test
