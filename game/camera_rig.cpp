@@ -14,7 +14,7 @@ constexpr float kGreatestPitch = 1.5f;
 constexpr float kNearest = 0.3f; // of the distance at which the scene placed the camera
 constexpr float kFarthest = 4;
 constexpr float kDistanceANotch = 0.9f;
-constexpr float kPursuitRate = 6;  // a second: the share of the way to the player
+constexpr float kPursuitRate = 6;      // a second: the share of the way to the player
 constexpr float kTurnPerMetre = 0.35f; // radians at most, while following
 
 void orbit(CameraRig& rig, const app::InputFrame& input)
@@ -22,7 +22,8 @@ void orbit(CameraRig& rig, const app::InputFrame& input)
     rig.yaw = std::remainder(rig.yaw + input.look.x, 2 * kPi);
     // A camera that was placed lower may stay there.
     rig.pitch = std::clamp(rig.pitch + input.look.y, std::min(kLeastPitch, rig.pitch), kGreatestPitch);
-    rig.distance = std::clamp(rig.distance * std::pow(kDistanceANotch, input.zoom), kNearest * rig.placedDistance, kFarthest * rig.placedDistance);
+    rig.distance =
+        std::clamp(rig.distance * std::pow(kDistanceANotch, input.zoom), kNearest * rig.placedDistance, kFarthest * rig.placedDistance);
 }
 
 void pursue(CameraRig& rig, vec3 player)

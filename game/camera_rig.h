@@ -15,8 +15,8 @@ struct CameraRig
 {
     float yaw = 0;
     float pitch = 0;
-    float distance = 5;        // metres
-    float placedDistance = 5;  // as the scene has it
+    float distance = 5;       // metres
+    float placedDistance = 5; // as the scene has it
     vec3 target{0};
     vec3 targetFromPlayer{0}; // kept while the player walks about
     bool isFollowing = true;  // turns behind the player who walks; else it only orbits

@@ -41,8 +41,7 @@ void makeActor(ecs::World& world, Entity entity)
 Ground findGround(const ecs::World& world)
 {
     Aabb bounds;
-    for (auto [drawable, matrix] :
-         Each<const scene::Drawable, const scene::WorldMatrix, ecs::Without<scene::DynamicSkinned>>(world)) {
+    for (auto [drawable, matrix] : Each<const scene::Drawable, const scene::WorldMatrix, ecs::Without<scene::DynamicSkinned>>(world)) {
         const Aabb local = world.resource<scene::Assets>().models[drawable.model].mesh.bounds();
         for (int corner = 0; corner < 8 && !local.isEmpty(); ++corner) {
             const vec3 share{corner & 1, corner >> 1 & 1, corner >> 2 & 1};

@@ -26,7 +26,8 @@ constexpr float kPersonHeight = 1.75f;
 uint32_t findClip(const scene::Model& model, std::string_view name)
 {
     const auto sameLetter = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-    const auto found = std::ranges::find_if(model.clips, [&](const scene::Clip& clip) { return std::ranges::equal(clip.name, name, sameLetter); });
+    const auto found =
+        std::ranges::find_if(model.clips, [&](const scene::Clip& clip) { return std::ranges::equal(clip.name, name, sameLetter); });
     return found != model.clips.end() ? static_cast<uint32_t>(found - model.clips.begin()) : kNoIndex;
 }
 

@@ -25,7 +25,7 @@ struct Ground
 /// Made new by somebody every step.
 struct Intent
 {
-    vec2 walk{0};                // in X and Z; 1 long at full walking speed
+    vec2 walk{0}; // in X and Z; 1 long at full walking speed
     bool isRunning = false;
     bool waves = false;          // begins to
     std::optional<float> facing; // where it turns while it stands
@@ -48,7 +48,7 @@ Gaits gaitsOf(const scene::Model& model);
 struct Character
 {
     Gaits gaits;
-    float scale = 1; // of its speeds, against a person of 1.75 m
+    float scale = 1;          // of its speeds, against a person of 1.75 m
     quat upright{1, 0, 0, 0}; // its rotation when it faces 0
     float facing = 0;
     float speed = 0; // metres a second, ahead

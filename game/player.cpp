@@ -10,9 +10,8 @@ void controlPlayer(ecs::Each<Intent, ecs::With<Player>> players, const CameraRig
     const vec2 ahead{-std::sin(rig.yaw), -std::cos(rig.yaw)};
     const vec2 right{-ahead.y, ahead.x};
     for (auto [intent] : players)
-        intent = {.walk = right * input.move.x + ahead * input.move.y,
-                  .isRunning = input.isRunning,
-                  .waves = input.asks(app::Action::Wave)};
+        intent = {
+            .walk = right * input.move.x + ahead * input.move.y, .isRunning = input.isRunning, .waves = input.asks(app::Action::Wave)};
 }
 
 } // namespace antumbra::game

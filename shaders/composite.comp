@@ -3,7 +3,7 @@
 #include "lib/bindless.glsl"
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/composite.h"
 #include "lib/compose.glsl"
 #include "lib/octahedral.glsl"
@@ -11,7 +11,6 @@
 // First term minus occluded irradiance, times albedo over pi; the environment where nothing is (Xu et al. 2022, eq. 2 and 3).
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { Composite pc; };
 
@@ -19,14 +18,13 @@ const float kInversePi = 0.3183098861837907;
 
 vec3 skyRadiance(vec2 pixel)
 {
-    Frame frame = Frame(pc.frame);
-    vec3 d = normalize(frame.block.cornerRay + pixel.x * frame.block.rayX + pixel.y * frame.block.rayY);
+    vec3 d = normalize(frameBlock.cornerRay + pixel.x * frameBlock.rayX + pixel.y * frameBlock.rayY);
     // The light turned by +angle about +Y is looked up at -angle.
-    float c = cos(frame.block.environmentRotation), s = sin(frame.block.environmentRotation);
+    float c = cos(frameBlock.environmentRotation), s = sin(frameBlock.environmentRotation);
     d = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
     vec2 uv = vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInversePi), acos(clamp(d.y, -1.0, 1.0)) * kInversePi);
-    return textureLod(sampler2D(sampledImages[frame.block.environment], samplers[kLinearWrapU]), uv, 0.0).rgb *
-           frame.block.environmentIntensity;
+    return textureLod(sampler2D(sampledImages[frameBlock.environment], samplers[kLinearWrapU]), uv, 0.0).rgb *
+           frameBlock.environmentIntensity;
 }
 
 vec3 occludedAt(uint slot, ivec2 pixel) { return slot == kNoOcclusion ? vec3(0.0) : texelFetch(sampledImages[slot], pixel, 0).rgb; }

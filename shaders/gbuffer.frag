@@ -1,12 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/scene.h"
 #include "lib/octahedral.glsl"
 #include "lib/sh.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
 layout(buffer_reference, scalar) readonly buffer Instance { InstanceBlock block; };
 layout(buffer_reference, scalar) readonly buffer Materials { MaterialBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Indices { uint value[]; };
@@ -31,8 +30,7 @@ void main()
     if (base.a < material.alphaCutoff)
         discard;
 
-    Frame frame = Frame(pc.frame);
-    vec3 toEye = frame.block.eye - positionWorld;
+    vec3 toEye = frameBlock.eye - positionWorld;
     vec3 geometric = cross(dFdx(positionWorld), dFdy(positionWorld));
     float squared = dot(geometric, geometric);
     // A triangle seen edge-on has no derivatives to speak of.
@@ -46,7 +44,7 @@ void main()
     shBasis3(shading, y);
     vec3 irradiance = vec3(0.0);
     for (int i = 0; i < 9; ++i)
-        irradiance += frame.block.irradianceSh[i] * y[i];
+        irradiance += frameBlock.irradianceSh[i] * y[i];
 
     outNormals = vec4(octahedralFromUnit(geometric), octahedralFromUnit(shading));
     outAlbedo = vec4(base.rgb, (instance.block.flags & kInstanceDynamic) != 0u ? 1.0 : 0.0);

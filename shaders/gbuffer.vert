@@ -1,10 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/scene.h"
 
-layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
 layout(buffer_reference, scalar) readonly buffer Instance { InstanceBlock block; };
 layout(buffer_reference, scalar) readonly buffer Vectors { vec3 value[]; };
 layout(buffer_reference, scalar) readonly buffer Uvs { vec2 value[]; };
@@ -20,5 +19,5 @@ void main()
     positionWorld = vec3(instance.block.worldFromLocal * vec4(Vectors(instance.block.positions).value[gl_VertexIndex], 1.0));
     normalWorld = mat3(instance.block.normalFromLocal) * Vectors(instance.block.normals).value[gl_VertexIndex];
     uv = Uvs(instance.block.uvs).value[gl_VertexIndex];
-    gl_Position = Frame(pc.frame).block.clipFromWorld * vec4(positionWorld, 1.0);
+    gl_Position = frameBlock.clipFromWorld * vec4(positionWorld, 1.0);
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/occlusion.h"
 #include "lib/surface.glsl"
 
@@ -9,7 +9,6 @@
 // taps count half, so that a width of 4k + 1 sees each of the 4 x 4 rotations equally often.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
 layout(push_constant, scalar) uniform Push { OcclusionFilter pc; };
 
 void main()
@@ -26,10 +25,9 @@ void main()
         imageStore(storageImages[pc.filtered], pixel, centre);
         return;
     }
-    Frame frame = Frame(pc.frame);
     vec3 normal = unitFromOctahedral(texelFetch(sampledImages[pc.normals], full, 0).zw);
-    PixelPlane plane = pixelPlane(frame.block, vec2(full) + 0.5, depth, normal);
-    float near = frame.block.near;
+    PixelPlane plane = pixelPlane(frameBlock, vec2(full) + 0.5, depth, normal);
+    float near = frameBlock.near;
 
     vec3 sum = vec3(0.0);
     float weights = 0.0;

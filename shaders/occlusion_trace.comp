@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/skinning.h"
 #include "shared/occlusion.h"
 #include "shared/composite.h"
@@ -16,12 +16,12 @@
 #include "lib/mask_table.glsl"
 #include "lib/ray_query.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
 layout(buffer_reference, scalar) readonly buffer Samples { vec4 direction[]; };
 layout(buffer_reference, scalar) readonly buffer Masks { uvec4 samples[]; };
-layout(buffer_reference, scalar) readonly buffer Blockers { BlockerBlock block[]; };
-layout(buffer_reference, scalar) readonly buffer Capsules { CapsuleBlock block[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
+layout(set = 0, binding = 3, scalar) readonly buffer EvenSamples { vec4 direction[]; } evenSamples[];
+layout(set = 0, binding = 3, scalar) readonly buffer Blockers { BlockerBlock block[]; } blockers[];
+layout(set = 0, binding = 3, scalar) readonly buffer Capsules { CapsuleBlock block[]; } capsules[];
 layout(push_constant, scalar) uniform Push { OcclusionTrace pc; };
 
 // One thread a pixel, for finding the rays that survive; then the group's rays are dealt out evenly, so that no lane idles.
@@ -47,6 +47,7 @@ void addHidden(vec3 direction)
         hidden[i] += y[i];
 }
 
+// `i` may differ from thread to thread.
 vec3 localSample(uint i)
 {
 #ifdef REFERENCE
@@ -54,6 +55,16 @@ vec3 localSample(uint i)
     return cosineHammersley(i, pc.sampleCount, radicalInverse2(pc.frameIndex * 2u + 1u));
 #else
     return Samples(pc.samples).direction[i].xyz;
+#endif
+}
+
+// `i` is the same for all threads, which read it once.
+vec3 evenSample(uint i)
+{
+#ifdef REFERENCE
+    return localSample(i);
+#else
+    return evenSamples[pc.evenSamples].direction[i].xyz;
 #endif
 }
 
@@ -65,7 +76,7 @@ bool isNegligible(Cone cone, vec3 normal) { return 0.3 * greatestShare(cone, nor
 void traceAll(Receiver r)
 {
     for (uint i = 0u; i < pc.sampleCount; ++i) {
-        vec3 direction = r.frame * localSample(i);
+        vec3 direction = r.frame * evenSample(i);
         if (dynamicHitsFirstOfAll(pc.scene, r.origin, direction))
             addHidden(direction);
     }
@@ -90,7 +101,7 @@ uint samplesInCone(uint base, vec3 axis, float cosine)
     uint inside = 0u;
     uint end = base + min(32u, pc.sampleCount - base);
     for (uint i = base; i < end; ++i)
-        inside |= dot(localSample(i), axis) >= cosine ? 1u << (i - base) : 0u;
+        inside |= dot(evenSample(i), axis) >= cosine ? 1u << (i - base) : 0u;
     return inside;
 }
 
@@ -99,7 +110,7 @@ Survivors survivorsAmong(Receiver r, uint base)
     // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
     Survivors survivors = Survivors(uvec4(0u), 0.0);
     for (uint k = 0u; k < pc.blockerCount; ++k) {
-        BlockerBlock blocker = Blockers(pc.blockers).block[k];
+        BlockerBlock blocker = blockers[pc.blockers].block[k];
         if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
             continue;
         Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
@@ -150,13 +161,13 @@ Survivors survivorsAmong(Receiver r, uint base)
 {
     Survivors survivors = Survivors(uvec4(0u), 0.0);
     for (uint k = 0u; k < pc.blockerCount; ++k) {
-        BlockerBlock blocker = Blockers(pc.blockers).block[k];
+        BlockerBlock blocker = blockers[pc.blockers].block[k];
         if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
             continue;
         if (isNegligible(coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius), r.normal))
             continue;
         for (uint c = 0u; c < blocker.capsuleCount; ++c)
-            addCapsule(r, Capsules(pc.capsules).block[blocker.firstCapsule + c], base, survivors);
+            addCapsule(r, capsules[pc.capsules].block[blocker.firstCapsule + c], base, survivors);
     }
     return survivors;
 }
@@ -249,7 +260,7 @@ vec3 hiddenIrradiance()
 {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 9; ++i)
-        sum += Frame(pc.frame).block.radianceSh[i] * hidden[i];
+        sum += frameBlock.radianceSh[i] * hidden[i];
     return sum * (kPi / float(pc.sampleCount));
 }
 
@@ -265,15 +276,14 @@ void count()
 
 Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 {
-    Frame frame = Frame(pc.frame);
     vec4 octahedral = texelFetch(sampledImages[pc.normals], ivec2(fullPixel), 0);
-    vec3 position = worldPosition(frame.block, vec2(fullPixel) + 0.5, depth);
+    vec3 position = worldPosition(frameBlock, vec2(fullPixel) + 0.5, depth);
     float rotation = pixelRotation(pixel);
 #ifdef REFERENCE
     rotation += kTau * fract(float(pc.frameIndex) * 0.61803398875);
 #endif
     vec3 normal = unitFromOctahedral(octahedral.zw);
-    return Receiver(rayOrigin(position, unitFromOctahedral(octahedral.xy), frame.block.eye), normal, turnedFrame(normal, rotation));
+    return Receiver(rayOrigin(position, unitFromOctahedral(octahedral.xy), frameBlock.eye), normal, turnedFrame(normal, rotation));
 }
 
 void main()

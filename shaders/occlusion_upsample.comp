@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/occlusion.h"
 #include "lib/surface.glsl"
 
@@ -9,7 +9,6 @@
 // the one that is nearest to it. Contact shadows stay where the surfaces meet.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(buffer_reference, scalar) readonly buffer Frame { FrameBlock block; };
 layout(push_constant, scalar) uniform Push { OcclusionUpsample pc; };
 
 void main()
@@ -23,9 +22,8 @@ void main()
         imageStore(storageImages[pc.occluded], pixel, vec4(0.0));
         return;
     }
-    Frame frame = Frame(pc.frame);
     vec3 normal = unitFromOctahedral(texelFetch(sampledImages[pc.normals], pixel, 0).zw);
-    PixelPlane plane = pixelPlane(frame.block, vec2(pixel) + 0.5, depth, normal);
+    PixelPlane plane = pixelPlane(frameBlock, vec2(pixel) + 0.5, depth, normal);
     ivec2 lastCoarse = textureSize(sampledImages[pc.coarse], 0) - 1;
     // Coarse values belong to the full pixel they were traced for.
     float middle = floor(0.5 * pc.pixelScale);
@@ -44,7 +42,7 @@ void main()
             continue;
         vec4 value = texelFetch(sampledImages[pc.coarse], coarse, 0);
         vec3 normalThere = unitFromOctahedral(texelFetch(sampledImages[pc.normals], full, 0).zw);
-        float likeness = samePlane(plane, vec2(full - pixel), frame.block.near / depthThere, normalThere);
+        float likeness = samePlane(plane, vec2(full - pixel), frameBlock.near / depthThere, normalThere);
         vec2 bilinear = mix(1.0 - share, share, vec2(step));
         float weight = likeness * bilinear.x * bilinear.y;
         sum += weight * value;

@@ -4,10 +4,11 @@ namespace antumbra::app {
 
 namespace {
 
-constexpr Control held(std::string_view what, Axis axis, float amount, Key key, std::string_view keyName, PadButton button = PadButton::None,
-                       std::string_view padName = "")
+constexpr Control held(std::string_view what, Axis axis, float amount, Key key, std::string_view keyName,
+                       PadButton button = PadButton::None, std::string_view padName = "")
 {
-    return {.what = what, .isHeld = true, .axis = axis, .amount = amount, .key = key, .keyName = keyName, .button = button, .padName = padName};
+    return {
+        .what = what, .isHeld = true, .axis = axis, .amount = amount, .key = key, .keyName = keyName, .button = button, .padName = padName};
 }
 
 constexpr Control stick(std::string_view what, Axis axis, PadAxis stick, std::string_view padName)

@@ -16,7 +16,7 @@ public:
 
 private:
     InputFrame next_;
-    vec2 orbit_{0}; // radians a second, held
+    vec2 orbit_{0};  // radians a second, held
     float zoom_ = 0; // notches a second, held
 };
 

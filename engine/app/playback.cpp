@@ -33,12 +33,16 @@ void hand(const Pointer* pointer, ImGuiIO& io)
 
 } // namespace
 
-render::DeviceClass deviceClassOf(const gpu::DeviceInfo& device) { return device.isCpu ? render::DeviceClass::Cpu : render::DeviceClass::Gpu; }
+render::DeviceClass deviceClassOf(const gpu::DeviceInfo& device)
+{
+    return device.isCpu ? render::DeviceClass::Cpu : render::DeviceClass::Gpu;
+}
 
 Playback::Playback(gpu::Device& device, Stage& stage, const PlaybackOptions& options)
     : stage_(stage), device_(device.info()), sceneName_(options.sceneName),
-      knobs_(render::resolveKnobs(deviceClassOf(device_), stage.settings(), options.settings)), renderer_(device, stage.assets(), options.size),
-      profiler_(options.measuredFrames), keyLines_(keyLines()), keyHints_(hintsOf(keyLines_)), isRecording_(options.isRecording),
+      knobs_(render::resolveKnobs(deviceClassOf(device_), stage.settings(), options.settings)),
+      renderer_(device, stage.assets(), options.size), profiler_(options.measuredFrames), keyLines_(keyLines()),
+      keyHints_(hintsOf(keyLines_)), isRecording_(options.isRecording),
       recordedKnobs_(render::resolveKnobs(deviceClassOf(device_), stage.settings(), {}))
 {
     if (options.targetMilliseconds)

@@ -4,13 +4,12 @@
 #include "base/nearest.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <cstdlib>
 
 namespace antumbra::app {
 
@@ -20,9 +19,9 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
-constexpr std::array<std::string_view, kActionCount> kActionNames{
-    "wave",   "change camera",  "pause",       "single step", "slower",     "faster",
-    "toggle overlay", "toggle keys", "next view", "screenshot", "quit"};
+constexpr std::array<std::string_view, kActionCount> kActionNames{"wave",   "change camera",  "pause",       "single step", "slower",
+                                                                  "faster", "toggle overlay", "toggle keys", "next view",   "screenshot",
+                                                                  "quit"};
 constexpr std::string_view kHeaderKeys[] = {"script", "seed", "frames"};
 constexpr std::string_view kStepKeys[] = {"frame", "move", "run", "rotate_environment", "look", "zoom", "press", "set", "split"};
 constexpr double kGreatestLook = 100;
@@ -148,22 +147,25 @@ void readStep(const Line& line, ScriptStep& step)
 /// What the step after one that read `input` starts from.
 InputFrame heldOf(const InputFrame& input) { return {.move = input.move, .turnLight = input.turnLight, .isRunning = input.isRunning}; }
 
+/// Written with as many digits as a float needs, not a double.
+double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
+
 void appendHeld(ordered_json& line, const InputFrame& input, const InputFrame& before)
 {
     if (input.move != before.move)
-        line["move"] = {input.move.x, input.move.y};
+        line["move"] = {shortest(input.move.x), shortest(input.move.y)};
     if (input.isRunning != before.isRunning)
         line["run"] = input.isRunning;
     if (input.turnLight != before.turnLight)
-        line["rotate_environment"] = input.turnLight;
+        line["rotate_environment"] = shortest(input.turnLight);
 }
 
 void appendOnce(ordered_json& line, const ScriptStep& step)
 {
     if (step.input.look != vec2(0))
-        line["look"] = {step.input.look.x, step.input.look.y};
+        line["look"] = {shortest(step.input.look.x), shortest(step.input.look.y)};
     if (step.input.zoom != 0)
-        line["zoom"] = step.input.zoom;
+        line["zoom"] = shortest(step.input.zoom);
     for (uint32_t action = 0; action < kActionCount; ++action)
         if (step.input.asks(static_cast<Action>(action)))
             line["press"].push_back(kActionNames[action]);

@@ -17,9 +17,11 @@ ExitCode runInfo()
     fmt::print("driver     {}\n", info.driver);
     fmt::print("Vulkan     {}\n", info.api);
     fmt::print("subgroup   {}\n", info.subgroupSize);
-    fmt::print("timestamps {}\n", info.nanosecondsPerTick > 0 ? fmt::format("{} ns", info.nanosecondsPerTick) : "none: passes show no times");
+    fmt::print("timestamps {}\n",
+               info.nanosecondsPerTick > 0 ? fmt::format("{} ns", info.nanosecondsPerTick) : "none: passes show no times");
     fmt::print("missing    {}\n", info.missingOptional.empty() ? "nothing" : fmt::format("{}", fmt::join(info.missingOptional, ", ")));
-    fmt::print("occlusion  {}\n", info.rayQuery ? "ray-query: the device has ray queries in shaders" : "none: the device has no ray queries");
+    fmt::print("occlusion  {}\n",
+               info.rayQuery ? "ray-query: the device has ray queries in shaders" : "none: the device has no ray queries");
     const render::Knobs knobs = render::defaultKnobs(deviceClassOf(info));
     fmt::print("defaults   for a {}:\n", info.isCpu ? "CPU" : "GPU");
     for (const render::KnobDescription& knob : render::knobTable())
@@ -29,7 +31,7 @@ ExitCode runInfo()
 
 ExitCode runInspect(const InspectOptions& options)
 {
-    fmt::print("{}\n", scene::inspect(options.file));
+    fmt::print("{}", scene::inspect(options.file));
     return ExitCode::Done;
 }
 
@@ -44,7 +46,8 @@ ExitCode runGraph(const GraphOptions& options)
     renderer.render(view);
     device.waitIdle();
     const bool isDot = options.output.extension() == ".dot";
-    writeText(options.output, isDot ? graph::toDot(renderer.frameGraph(), renderer.plan()) : graph::toJson(renderer.frameGraph(), renderer.plan()));
+    writeText(options.output,
+              isDot ? graph::toDot(renderer.frameGraph(), renderer.plan()) : graph::toJson(renderer.frameGraph(), renderer.plan()));
     return ExitCode::Done;
 }
 

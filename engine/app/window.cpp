@@ -47,9 +47,10 @@ constexpr KeyCode kKeyCodes[] = {
 static_assert(std::size(kKeyCodes) == kKeyCount, "a code for every key");
 
 constexpr int kPadButtonCodes[] = {
-    GLFW_GAMEPAD_BUTTON_A,           GLFW_GAMEPAD_BUTTON_B,          GLFW_GAMEPAD_BUTTON_X,       GLFW_GAMEPAD_BUTTON_Y,
-    GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, GLFW_GAMEPAD_BUTTON_BACK,  GLFW_GAMEPAD_BUTTON_START,
-    GLFW_GAMEPAD_BUTTON_LEFT_THUMB,  GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, GLFW_GAMEPAD_BUTTON_DPAD_UP, GLFW_GAMEPAD_BUTTON_DPAD_RIGHT,
+    GLFW_GAMEPAD_BUTTON_A,           GLFW_GAMEPAD_BUTTON_B,           GLFW_GAMEPAD_BUTTON_X,
+    GLFW_GAMEPAD_BUTTON_Y,           GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
+    GLFW_GAMEPAD_BUTTON_BACK,        GLFW_GAMEPAD_BUTTON_START,       GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
+    GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, GLFW_GAMEPAD_BUTTON_DPAD_UP,     GLFW_GAMEPAD_BUTTON_DPAD_RIGHT,
     GLFW_GAMEPAD_BUTTON_DPAD_DOWN,   GLFW_GAMEPAD_BUTTON_DPAD_LEFT,
 };
 static_assert(std::size(kPadButtonCodes) == kPadButtonCount, "a code for every button");
@@ -121,9 +122,8 @@ void Window::listen()
         if (action == GLFW_PRESS)
             hands.keysPressed[*key] = true;
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
-        windowOf(window).pointer_.wheel += static_cast<float>(notches);
-    });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* window, double, double notches) { windowOf(window).pointer_.wheel += static_cast<float>(notches); });
 }
 
 void Window::poll()

@@ -37,7 +37,7 @@ std::vector<uint32_t> allSlots()
 
 } // namespace
 
-Bindless::Bindless(VkDevice device) : device_(device), freeSampled_(allSlots()), freeStorage_(allSlots())
+Bindless::Bindless(VkDevice device) : device_(device), freeSampled_(allSlots()), freeStorage_(allSlots()), freeBuffers_(allSlots())
 {
     constexpr auto clamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     constexpr auto repeat = VK_SAMPLER_ADDRESS_MODE_REPEAT;
@@ -46,14 +46,15 @@ Bindless::Bindless(VkDevice device) : device_(device), freeSampled_(allSlots()),
     samplers_[2] = makeSampler(device, VK_FILTER_NEAREST, clamp, clamp);
     samplers_[3] = makeSampler(device, VK_FILTER_LINEAR, repeat, clamp);
 
-    const std::array<VkDescriptorSetLayoutBinding, 3> bindings{{
+    const std::array<VkDescriptorSetLayoutBinding, 4> bindings{{
         {0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kSlotCount, VK_SHADER_STAGE_ALL, nullptr},
         {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSlotCount, VK_SHADER_STAGE_ALL, nullptr},
         {2, VK_DESCRIPTOR_TYPE_SAMPLER, 4, VK_SHADER_STAGE_ALL, samplers_},
+        {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSlotCount, VK_SHADER_STAGE_ALL, nullptr},
     }};
     constexpr VkDescriptorBindingFlags slotFlags = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT | VK_DESCRIPTOR_BINDING_UPDATE_AFTER_BIND_BIT |
                                                    VK_DESCRIPTOR_BINDING_UPDATE_UNUSED_WHILE_PENDING_BIT;
-    const std::array<VkDescriptorBindingFlags, 3> flags{slotFlags, slotFlags, 0};
+    const std::array<VkDescriptorBindingFlags, 4> flags{slotFlags, slotFlags, 0, slotFlags};
     const VkDescriptorSetLayoutBindingFlagsCreateInfo flagsInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO,
                                                                .bindingCount = static_cast<uint32_t>(flags.size()),
                                                                .pBindingFlags = flags.data()};
@@ -64,9 +65,10 @@ Bindless::Bindless(VkDevice device) : device_(device), freeSampled_(allSlots()),
                                                   .pBindings = bindings.data()};
     require(vkCreateDescriptorSetLayout(device, &setInfo, nullptr, &setLayout_), "vkCreateDescriptorSetLayout");
 
-    const std::array<VkDescriptorPoolSize, 3> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kSlotCount},
+    const std::array<VkDescriptorPoolSize, 4> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kSlotCount},
                                                      {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSlotCount},
-                                                     {VK_DESCRIPTOR_TYPE_SAMPLER, 4}}};
+                                                     {VK_DESCRIPTOR_TYPE_SAMPLER, 4},
+                                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSlotCount}}};
     const VkDescriptorPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                               .flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT,
                                               .maxSets = 1,
@@ -95,31 +97,41 @@ Bindless::~Bindless()
         vkDestroySampler(device_, sampler, nullptr);
 }
 
-uint32_t Bindless::add(std::vector<uint32_t>& freed, Binding binding, VkDescriptorType type, VkImageLayout layout, VkImageView view)
+uint32_t Bindless::add(std::vector<uint32_t>& freed, VkWriteDescriptorSet write)
 {
     check(!freed.empty(), "a free descriptor slot");
     const uint32_t slot = freed.back();
     freed.pop_back();
-    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, layout};
-    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .dstSet = set_,
-                                     .dstBinding = static_cast<uint32_t>(binding),
-                                     .dstArrayElement = slot,
-                                     .descriptorCount = 1,
-                                     .descriptorType = type,
-                                     .pImageInfo = &image};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set_;
+    write.dstArrayElement = slot;
+    write.descriptorCount = 1;
     vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
     return slot;
 }
 
 uint32_t Bindless::addSampled(VkImageView view)
 {
-    return add(freeSampled_, Binding::SampledImages, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, view);
+    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    return add(freeSampled_, {.dstBinding = static_cast<uint32_t>(Binding::SampledImages),
+                              .descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                              .pImageInfo = &image});
 }
 
 uint32_t Bindless::addStorage(VkImageView view)
 {
-    return add(freeStorage_, Binding::StorageImages, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_IMAGE_LAYOUT_GENERAL, view);
+    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+    return add(freeStorage_, {.dstBinding = static_cast<uint32_t>(Binding::StorageImages),
+                              .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                              .pImageInfo = &image});
+}
+
+uint32_t Bindless::addBuffer(VkBuffer buffer)
+{
+    const VkDescriptorBufferInfo whole{buffer, 0, VK_WHOLE_SIZE};
+    return add(freeBuffers_, {.dstBinding = static_cast<uint32_t>(Binding::Buffers),
+                              .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                              .pBufferInfo = &whole});
 }
 
 void Bindless::bind(VkCommandBuffer commands) const

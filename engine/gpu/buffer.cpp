@@ -31,7 +31,7 @@ Buffer::Buffer(Device& device, std::string_view label, size_t bytes, MemoryKind 
 Buffer::~Buffer()
 {
     if (device_ != nullptr)
-        device_->retire({VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer_), allocation_});
+        device_->retire({VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer_), allocation_, kNoSlot, kNoSlot, slot_});
 }
 
 void Buffer::swap(Buffer& other) noexcept
@@ -41,6 +41,14 @@ void Buffer::swap(Buffer& other) noexcept
     std::swap(allocation_, other.allocation_);
     std::swap(address_, other.address_);
     std::swap(bytes_, other.bytes_);
+    std::swap(slot_, other.slot_);
+}
+
+uint32_t Buffer::slot() const
+{
+    if (slot_ == kNoSlot)
+        slot_ = device_->bindless().addBuffer(buffer_);
+    return slot_;
 }
 
 void upload(Device& device, const Buffer& target, std::span<const std::byte> bytes, size_t offset)

@@ -22,6 +22,8 @@ public:
 
     [[nodiscard]] VkBuffer handle() const { return buffer_; }
     [[nodiscard]] VkDeviceAddress address() const { return address_; }
+    /// In the bindless set; given at the first call.
+    [[nodiscard]] uint32_t slot() const;
     [[nodiscard]] size_t bytes() const { return bytes_; }
     /// Null where the host cannot see the memory.
     [[nodiscard]] std::byte* mapped() const { return allocation_.mapped; }
@@ -35,6 +37,7 @@ private:
     Allocation allocation_{};
     VkDeviceAddress address_ = 0;
     size_t bytes_ = 0;
+    mutable uint32_t slot_ = kNoSlot;
 };
 
 /// Copies to the device and waits; for loading. `offset` in bytes.

@@ -187,7 +187,11 @@ void Device::retire(Retired retired) { frame().retired.push_back(retired); }
 void Device::destroy(const Retired& retired)
 {
     switch (retired.type) {
-    case VK_OBJECT_TYPE_BUFFER: vkDestroyBuffer(device_, handleOf<VkBuffer>(retired), nullptr); break;
+    case VK_OBJECT_TYPE_BUFFER:
+        vkDestroyBuffer(device_, handleOf<VkBuffer>(retired), nullptr);
+        if (retired.bufferSlot != kNoSlot)
+            bindless_->freeBuffer(retired.bufferSlot);
+        break;
     case VK_OBJECT_TYPE_IMAGE: vkDestroyImage(device_, handleOf<VkImage>(retired), nullptr); break;
     case VK_OBJECT_TYPE_IMAGE_VIEW:
         vkDestroyImageView(device_, handleOf<VkImageView>(retired), nullptr);

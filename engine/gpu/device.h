@@ -44,6 +44,7 @@ struct Retired
     Allocation allocation{};
     uint32_t sampledSlot = kNoSlot; // of an image view
     uint32_t storageSlot = kNoSlot;
+    uint32_t bufferSlot = kNoSlot; // of a buffer
 };
 
 /// A linear store the host writes each frame and the device reads by address.

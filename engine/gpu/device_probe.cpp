@@ -80,6 +80,7 @@ std::vector<Wish> requiredFeatures(Features& f)
             {"descriptorBindingPartiallyBound", &f.v12.descriptorBindingPartiallyBound},
             {"descriptorBindingSampledImageUpdateAfterBind", &f.v12.descriptorBindingSampledImageUpdateAfterBind},
             {"descriptorBindingStorageImageUpdateAfterBind", &f.v12.descriptorBindingStorageImageUpdateAfterBind},
+            {"descriptorBindingStorageBufferUpdateAfterBind", &f.v12.descriptorBindingStorageBufferUpdateAfterBind},
             {"descriptorBindingUpdateUnusedWhilePending", &f.v12.descriptorBindingUpdateUnusedWhilePending},
             {"shaderSampledImageArrayNonUniformIndexing", &f.v12.shaderSampledImageArrayNonUniformIndexing},
             {"hostQueryReset", &f.v12.hostQueryReset},

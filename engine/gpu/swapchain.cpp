@@ -122,7 +122,7 @@ void Swapchain::recreate(uvec2 extent)
     retireImages();
     const VkSurfaceCapabilitiesKHR capabilities = capabilitiesOf(device_.physical(), surface_);
     const uvec2 imageExtent = glm::clamp(extent, uvec2(capabilities.minImageExtent.width, capabilities.minImageExtent.height),
-                         uvec2(capabilities.maxImageExtent.width, capabilities.maxImageExtent.height));
+                                         uvec2(capabilities.maxImageExtent.width, capabilities.maxImageExtent.height));
     const VkSwapchainKHR before = swapchain_;
     const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
                                         .surface = surface_,

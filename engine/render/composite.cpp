@@ -34,8 +34,8 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
     pass.record([this, &view, addresses, g, occluded, reference, composed, counted = counters](graph::Recorder& recorder) {
         const auto slot = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNoOcclusion; };
         recorder.dispatch(pipeline_,
-                          shader::Composite{.frame = addresses.frame,
-                                            .counters = recorder.address(counted),
+                          shader::Composite{.counters = recorder.address(counted),
+                                            .frame = addresses.frame,
                                             .depth = recorder.sampled(g.depth),
                                             .normals = recorder.sampled(g.normals),
                                             .albedo = recorder.sampled(g.albedo),

@@ -50,6 +50,12 @@ shader::InstanceBlock instanceOf(const DeviceModel& model, const mat4& world, Vk
 
 } // namespace
 
+FrameBlocks::FrameBlocks(gpu::Device& device, const scene::Assets& assets) : device_(&device), assets_(&assets)
+{
+    for (gpu::Buffer& block : blocks_)
+        block = gpu::Buffer(device, "frame block", sizeof(shader::FrameBlock), gpu::MemoryKind::Upload);
+}
+
 const bake::ShFunction& FrameBlocks::projected(uint32_t environment)
 {
     if (projections_.size() <= environment)
@@ -79,8 +85,8 @@ FrameAddresses FrameBlocks::write(const FrameView& view, const GpuScene& scene, 
     writeCamera(block, view.camera, extent);
     writeEnvironment(block, view.environment, scene);
     block.exposure = view.exposure;
-    const gpu::FrameBytes frame = device_->frameBytes(sizeof(block));
-    std::memcpy(frame.mapped, &block, sizeof(block));
+    const gpu::Buffer& frame = blocks_[device_->frameSlot()];
+    std::memcpy(frame.mapped(), &block, sizeof(block));
 
     const size_t count = view.statics.size() + view.characters.size();
     const gpu::FrameBytes instances = device_->frameBytes(std::max<size_t>(count, 1) * sizeof(shader::InstanceBlock));
@@ -98,7 +104,7 @@ FrameAddresses FrameBlocks::write(const FrameView& view, const GpuScene& scene, 
         append(instanceOf(scene.model(draw.model), draw.world, character.positions.address(), character.normals.address(),
                           shader::kInstanceDynamic));
     }
-    return {frame.address, instances.address};
+    return {frame.slot(), instances.address};
 }
 
 } // namespace antumbra::render

@@ -14,14 +14,14 @@ namespace antumbra::render {
 /// Where this frame's blocks lie, for as long as the frame is recorded and run.
 struct FrameAddresses
 {
-    VkDeviceAddress frame = 0;     // FrameBlock
+    uint32_t frame = 0;            // slot of the FrameBlock
     VkDeviceAddress instances = 0; // InstanceBlock[]: statics, then characters
 };
 
 class FrameBlocks
 {
 public:
-    FrameBlocks(gpu::Device& device, const scene::Assets& assets) : device_(&device), assets_(&assets) {}
+    FrameBlocks(gpu::Device& device, const scene::Assets& assets);
 
     /// Writes the blocks into the frame's store. After GpuScene::prepare.
     FrameAddresses write(const FrameView& view, const GpuScene& scene, uvec2 extent);
@@ -32,6 +32,7 @@ private:
 
     gpu::Device* device_;
     const scene::Assets* assets_;
+    gpu::Buffer blocks_[gpu::kFramesInFlight];
     std::vector<std::optional<bake::ShFunction>> projections_; // one an environment, made when asked for
 };
 

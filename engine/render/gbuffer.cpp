@@ -44,7 +44,7 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     g.unshadowed = pass.create("unshadowed", {.format = kIrradianceFormat, .extent = extent, .clear = vec4{0}}, Use::ColorAttachment);
 
     pass.record([this, &view, &scene, addresses](graph::Recorder& recorder) {
-        shader::GBufferDraw push{addresses.frame, addresses.instances};
+        shader::GBufferDraw push{addresses.instances, addresses.frame};
         for (const StaticDraw& draw : view.statics) {
             drawInstance(recorder, pipeline_, scene.model(draw.model), draw.world, push);
             push.instance += sizeof(shader::InstanceBlock);

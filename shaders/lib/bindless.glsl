@@ -1,4 +1,4 @@
-// Set 0 as engine/gpu/bindless.h makes it. Buffers come by address, images by slot.
+// Set 0 as engine/gpu/bindless.h makes it. Images come by slot, buffers by address, or by slot (binding 3) where all threads read alike.
 #ifndef LIB_BINDLESS_GLSL
 #define LIB_BINDLESS_GLSL
 

@@ -21,9 +21,13 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
 
 bool dynamicHitsFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
 {
-    float dynamicAt = closestHit(scene, kMaskDynamic, gl_RayFlagsNoneEXT, origin, direction, far);
+    // Any dynamic hit will do where nothing static lies before it; only else must the closest one be known.
+    float dynamicAt = closestHit(scene, kMaskDynamic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, far);
     if (dynamicAt < 0.0)
         return false;
+    if (closestHit(scene, kMaskStatic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, dynamicAt) < 0.0)
+        return true;
+    dynamicAt = closestHit(scene, kMaskDynamic, gl_RayFlagsNoneEXT, origin, direction, dynamicAt);
     return closestHit(scene, kMaskStatic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, dynamicAt) < 0.0;
 }
 

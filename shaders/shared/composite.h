@@ -27,8 +27,8 @@ const uint kNoOcclusion = 0xffffffffu;
 
 struct Composite
 {
-    uint64_t frame;
     uint64_t counters;
+    uint frame; // slot of a FrameBlock
     uint depth;
     uint normals;
     uint albedo;

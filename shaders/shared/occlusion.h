@@ -44,13 +44,14 @@ struct BlockerDispatch
 
 struct OcclusionTrace
 {
-    uint64_t frame;
     uint64_t scene; // top-level acceleration structure
     uint64_t samples; // vec4[sampleCount], local directions
     uint64_t masks; // uvec4[cell][sampleCount / 128]
-    uint64_t blockers; // BlockerBlock[blockerCount]
-    uint64_t capsules; // CapsuleBlock[]
     uint64_t counters; // CounterBlock
+    uint frame; // slots: FrameBlock,
+    uint evenSamples; // the samples again,
+    uint blockers; // BlockerBlock[blockerCount],
+    uint capsules; // CapsuleBlock[]
     uint depth;
     uint normals;
     uint occluded; // rgb: W/m^2; a: cones
@@ -63,7 +64,7 @@ struct OcclusionTrace
 
 struct OcclusionFilter
 {
-    uint64_t frame;
+    uint frame; // slot of a FrameBlock
     uint depth;
     uint normals;
     uint occluded;
@@ -74,7 +75,7 @@ struct OcclusionFilter
 
 struct OcclusionUpsample
 {
-    uint64_t frame;
+    uint frame; // slot of a FrameBlock
     uint depth;
     uint normals;
     uint coarse;

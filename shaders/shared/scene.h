@@ -34,8 +34,8 @@ struct InstanceBlock
 // Push constants of the G-buffer.
 struct GBufferDraw
 {
-    uint64_t frame;
-    uint64_t instance;
+    uint64_t instance; // InstanceBlock
+    uint frame; // slot of a FrameBlock
 };
 
 #endif

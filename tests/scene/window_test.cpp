@@ -109,8 +109,9 @@ protected:
 TEST_F(WindowTest, PlaysByRealKeysAndIsResized)
 {
     const Screen screen(folder_);
-    Process game({ANTUMBRA_PROGRAM, "play", "plaza", "--size", "320x180", "--record", file("record.jsonl"), "--screenshot", file("last.png")},
-                 {{"DISPLAY", screen.name()}, {"WAYLAND_DISPLAY", ""}, {"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"}}, file("game.log"));
+    Process game(
+        {ANTUMBRA_PROGRAM, "play", "plaza", "--size", "320x180", "--record", file("record.jsonl"), "--screenshot", file("last.png")},
+        {{"DISPLAY", screen.name()}, {"WAYLAND_DISPLAY", ""}, {"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"}}, file("game.log"));
     const std::string window = "Antumbra: plaza";
     hands(screen, {"search", "--sync", "--name", "^" + window + "$", "windowfocus", "--sync"});
     hands(screen, {"key", "F1"}); // the overlay goes
@@ -127,7 +128,9 @@ TEST_F(WindowTest, PlaysByRealKeysAndIsResized)
     EXPECT_THAT(log, Not(HasSubstr("Validation Error")));
 
     const app::Script record = app::loadScript(file("record.jsonl"));
-    const auto count = [&](auto holds) { return std::ranges::count_if(record.steps, [&](const app::ScriptStep& step) { return holds(step.input); }); };
+    const auto count = [&](auto holds) {
+        return std::ranges::count_if(record.steps, [&](const app::ScriptStep& step) { return holds(step.input); });
+    };
     EXPECT_GE(count([](const app::InputFrame& input) { return input.move == vec2(0, 1); }), 5);
     EXPECT_EQ(count([](const app::InputFrame& input) { return input.asks(app::Action::ToggleOverlay); }), 1);
     EXPECT_EQ(count([](const app::InputFrame& input) { return input.asks(app::Action::Quit); }), 1);

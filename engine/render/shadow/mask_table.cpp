@@ -52,6 +52,24 @@ AxisCell axisCell(uint32_t x, uint32_t y)
     return cell;
 }
 
+/// Where a point of the unit disk lies along a Hilbert curve over the square about it.
+uint32_t curvePosition(vec2 point)
+{
+    constexpr uint32_t kSide = 256;
+    uvec2 p = glm::min(uvec2((point * 0.5f + 0.5f) * static_cast<float>(kSide)), uvec2(kSide - 1));
+    uint32_t position = 0;
+    for (uint32_t half = kSide / 2; half > 0; half /= 2) {
+        const bool right = (p.x & half) != 0, upper = (p.y & half) != 0;
+        position += half * half * ((right ? 3u : 0u) ^ (upper ? 1u : 0u));
+        if (upper)
+            continue;
+        if (right)
+            p = uvec2(kSide - 1) - p;
+        std::swap(p.x, p.y);
+    }
+    return position;
+}
+
 } // namespace
 
 std::vector<vec4> hemisphereSamples(uint32_t count)
@@ -62,6 +80,7 @@ std::vector<vec4> hemisphereSamples(uint32_t count)
         const double u = (i + 0.5) / count, phi = 4 * kHalfPi * radicalInverse2(i), r = std::sqrt(u);
         samples.emplace_back(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u), 0);
     }
+    std::ranges::sort(samples, {}, [](const vec4& sample) { return curvePosition({sample.x, sample.y}); });
     return samples;
 }
 

@@ -8,7 +8,8 @@
 
 namespace antumbra::render {
 
-/// Cosine-weighted Hammersley points about +Z in the order of shaders/lib/hemisphere.glsl; w is 0.
+/// The cosine-weighted Hammersley points about +Z of shaders/lib/hemisphere.glsl, ordered so that neighbours in the list are neighbours on
+/// the hemisphere: rays that are traced together then stay together. w is 0.
 std::vector<vec4> hemisphereSamples(uint32_t count);
 
 /// Bit s of word [cell][s / 32] is set unless sample s lies outside every cone of the cell; cells as in shaders/lib/mask_table.glsl,

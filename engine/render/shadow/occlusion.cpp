@@ -50,13 +50,14 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     const gpu::Pipeline& pipeline = trace_[static_cast<size_t>(knobs.culling)];
     pass.record([this, &view, &scene, &pipeline, addresses, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
-                          shader::OcclusionTrace{.frame = addresses.frame,
-                                                 .scene = scene.scene().address(),
+                          shader::OcclusionTrace{.scene = scene.scene().address(),
                                                  .samples = samples_.address(),
                                                  .masks = masks_.address(),
-                                                 .blockers = scene.blockers().address(),
-                                                 .capsules = scene.capsules().address(),
                                                  .counters = recorder.address(counted),
+                                                 .frame = addresses.frame,
+                                                 .evenSamples = samples_.slot(),
+                                                 .blockers = scene.blockers().slot(),
+                                                 .capsules = scene.capsules().slot(),
                                                  .depth = recorder.sampled(g.depth),
                                                  .normals = recorder.sampled(g.normals),
                                                  .occluded = recorder.storage(traced),

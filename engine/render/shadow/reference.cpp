@@ -85,9 +85,9 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
         pass.record([this, &scene, addresses, g, traced, own, frame = frames_](graph::Recorder& recorder) {
             recorder.dispatch(trace_,
-                              shader::OcclusionTrace{.frame = addresses.frame,
-                                                     .scene = scene.scene().address(),
+                              shader::OcclusionTrace{.scene = scene.scene().address(),
                                                      .counters = recorder.address(own),
+                                                     .frame = addresses.frame,
                                                      .depth = recorder.sampled(g.depth),
                                                      .normals = recorder.sampled(g.normals),
                                                      .occluded = recorder.storage(traced),
