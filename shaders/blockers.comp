@@ -24,6 +24,7 @@ void main()
         capsule.a = vec3(source.worldFromLocal * vec4(capsule.a, 1.0));
         capsule.b = vec3(source.worldFromLocal * vec4(capsule.b, 1.0));
         capsule.radius *= scale;
+        capsule.reach *= scale;
         Capsules(pc.capsules).block[source.firstCapsule + c] = capsule;
     }
     if (gl_LocalInvocationIndex == 0u) {

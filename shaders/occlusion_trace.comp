@@ -126,48 +126,68 @@ Survivors survivorsAmong(Receiver r, uint base)
 
 #else
 
-// Candidates of one word that meet the capsule; its ends relative to the origin, in the sample frame.
-uint samplesThatHit(uint candidates, uint base, vec3 a, vec3 b, float radius)
+uvec4 maskOf(vec3 axis, float sine, uint base)
 {
-    uint hits = 0u;
-    while (candidates != 0u) {
-        uint bit = candidates & (~candidates + 1u);
-        candidates ^= bit;
-        vec3 direction = localSample(base + uint(findLSB(bit)));
-        if (hitsCapsule(vec3(0.0), direction, a, b, radius))
-            hits |= bit;
+    return Masks(pc.masks).samples[maskCell(axis, sine) * ((pc.sampleCount + 127u) / 128u) + base / 128u];
+}
+
+// Candidates that meet the capsule; its ends relative to the origin, in the sample frame.
+uvec4 samplesThatHit(uvec4 candidates, uint base, vec3 a, vec3 b, float radius)
+{
+    uvec4 hits = uvec4(0u);
+    while (true) {
+        uint w = candidates.x != 0u ? 0u : candidates.y != 0u ? 1u : candidates.z != 0u ? 2u : 3u;
+        uint word = candidates[w];
+        if (word == 0u)
+            return hits;
+        uint bit = word & (~word + 1u);
+        candidates[w] = word ^ bit;
+        if (hitsCapsule(vec3(0.0), localSample(base + 32u * w + uint(findLSB(word))), a, b, radius))
+            hits[w] |= bit;
     }
     return hits;
 }
 
-void addCapsule(Receiver r, CapsuleBlock capsule, uint base, inout Survivors survivors)
+// The samples that may hit the capsule: those in the cone of the sphere about it from afar, in its own cone from near.
+uvec4 capsuleCandidates(Receiver r, CapsuleBlock capsule, vec3 toMiddle, uint base)
 {
-    float above = max(dot(capsule.a - r.origin, r.normal), dot(capsule.b - r.origin, r.normal));
-    if (above <= -capsule.radius)
-        return;
+    float distance2 = dot(toMiddle, toMiddle);
+    if (distance2 > 4.0 * capsule.reach * capsule.reach) {
+        float inverse = inversesqrt(distance2);
+        return maskOf(toMiddle * inverse * r.frame, capsule.reach * inverse, base);
+    }
     Cone cone = coneOfCapsule(r.origin, r.normal, capsule.a, capsule.b, capsule.radius);
-    survivors.far = max(survivors.far, cone.height);
+    return cone.all ? uvec4(0xffffffffu) : maskOf(cone.axis * r.frame, sin(cone.halfAngle), base);
+}
+
+void addCapsule(Receiver r, CapsuleBlock capsule, uvec4 among, uint base, inout Survivors survivors)
+{
+    vec3 toMiddle = 0.5 * (capsule.a + capsule.b) - r.origin;
+    if (dot(toMiddle, r.normal) <= -capsule.reach)
+        return;
     coneCount += base == 0u ? 1u : 0u;
-    uint cell = maskCell(cone.axis * r.frame, cone.halfAngle);
-    uvec4 candidates = cone.all ? uvec4(0xffffffffu) : Masks(pc.masks).samples[cell * ((pc.sampleCount + 127u) / 128u) + base / 128u];
-    candidates &= ~survivors.samples;
+    uvec4 candidates = capsuleCandidates(r, capsule, toMiddle, base) & among & ~survivors.samples;
     vec3 a = (capsule.a - r.origin) * r.frame, b = (capsule.b - r.origin) * r.frame;
-    uint words = wordCount(base);
-    for (uint w = 0u; w < words; ++w)
-        survivors.samples[w] |= samplesThatHit(candidates[w], base + 32u * w, a, b, capsule.radius);
+    survivors.samples |= samplesThatHit(candidates, base, a, b, capsule.radius);
 }
 
 Survivors survivorsAmong(Receiver r, uint base)
 {
     Survivors survivors = Survivors(uvec4(0u), 0.0);
+    uvec4 existing = mix(uvec4(0u), uvec4(0xffffffffu), greaterThan(uvec4(pc.sampleCount - base), uvec4(0u, 32u, 64u, 96u)));
     for (uint k = 0u; k < pc.blockerCount; ++k) {
         BlockerBlock blocker = blockers[pc.blockers].block[k];
         if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
             continue;
-        if (isNegligible(coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius), r.normal))
+        Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
+        if (isNegligible(cone, r.normal))
             continue;
+        uvec4 among = cone.all ? existing : maskOf(cone.axis * r.frame, sin(cone.halfAngle), base);
+        if (all(equal(among, uvec4(0u))))
+            continue;
+        survivors.far = max(survivors.far, cone.height);
         for (uint c = 0u; c < blocker.capsuleCount; ++c)
-            addCapsule(r, capsules[pc.capsules].block[blocker.firstCapsule + c], base, survivors);
+            addCapsule(r, capsules[pc.capsules].block[blocker.firstCapsule + c], among, base, survivors);
     }
     return survivors;
 }

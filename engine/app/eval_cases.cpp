@@ -47,12 +47,9 @@ EvalSphere sphereOf(const scene::JsonObject& object)
     return {requiredVector(object, "center"), object.number("radius", 0, kAnyRadius)};
 }
 
-EvalCases::EvalCases(const Path& file, std::string_view kind) : file_(file), document_(scene::parseJson(file))
+EvalCases::EvalCases(const Path& file) : file_(file), document_(scene::parseJson(file))
 {
     const scene::JsonObject root(document_, file, "");
-    const std::string found = root.text("kind", "");
-    if (found != kind)
-        root.refuse("kind", fmt::format("expected \"{}\", found \"{}\"", kind, found));
     if (!root.has("cases"))
         root.refuse("cases", "is missing");
     const std::vector<scene::JsonObject> objects = root.objects("cases");

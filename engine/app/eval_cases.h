@@ -30,8 +30,8 @@ class EvalCases
 public:
     static constexpr size_t kBatch = 1024;
 
-    /// Throws Error for a file that does not hold `kind`, or a case without an id.
-    EvalCases(const Path& file, std::string_view kind);
+    /// Throws Error for a file without "cases", or a case without an id. What else a case holds is its kind's business.
+    explicit EvalCases(const Path& file);
     EvalCases(const EvalCases&) = delete;
     EvalCases& operator=(const EvalCases&) = delete;
 

@@ -39,6 +39,8 @@ void add(Batch& batch, const EvalCase& each)
                           .normal = each.unitVector("n"),
                           .firstSphere = static_cast<uint32_t>(batch.spheres.size()),
                           .firstProbe = static_cast<uint32_t>(batch.probes.size())};
+    if (!each.object.has("spheres"))
+        each.object.refuse("spheres", "is missing");
     for (const scene::JsonObject& object : each.object.objects("spheres")) {
         const EvalSphere sphere = sphereOf(object);
         batch.spheres.push_back({.centre = sphere.centre, .radius = sphere.radius});
@@ -207,7 +209,7 @@ Found foundOf(const DeviceBatch& device, const shader::ConeCase& at)
 
 Evaluation evaluateCones(gpu::Device& device, const Path& file)
 {
-    const EvalCases cases(file, "cones");
+    const EvalCases cases(file);
     const gpu::Pipeline pipeline = gpu::computePipeline(device, "eval_cones.comp");
     Evaluation evaluation{.cases = cases.size()};
     json results = json::array();

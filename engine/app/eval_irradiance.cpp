@@ -61,7 +61,7 @@ void compare(const EvalCase& each, double occluded, Comparison& comparison)
 
 Evaluation evaluateIrradiance(gpu::Device& device, const Path& file)
 {
-    const EvalCases cases(file, "irradiance");
+    const EvalCases cases(file);
     const gpu::Pipeline pipeline = gpu::computePipeline(device, "eval_irradiance.comp");
     const std::vector<vec4> points = render::hemisphereSamples(kSampleCount);
     const gpu::Buffer samples = gpu::uploadedBuffer(device, "hemisphere samples", std::span<const vec4>(points));

@@ -4,12 +4,12 @@
 
 #include "lib/octahedral.glsl"
 
-// `axis` in the sample frame, unit; `halfAngle` in 0..pi/2.
-uint maskCell(vec3 axis, float halfAngle)
+// `axis` in the sample frame, unit; `sine` of the half angle, which is at most a right one.
+uint maskCell(vec3 axis, float sine)
 {
     vec2 square = octahedralFromUnit(axis) * 0.5 + 0.5;
     uvec2 cell = min(uvec2(max(square, vec2(0.0)) * float(kMaskAxisCells)), uvec2(kMaskAxisCells - 1u));
-    uint angle = min(uint(max(halfAngle, 0.0) * (float(kMaskAngleCells) / 1.5707963267948966)), kMaskAngleCells - 1u);
+    uint angle = min(uint(max(sine, 0.0) * float(kMaskAngleCells)), kMaskAngleCells - 1u);
     return (angle * kMaskAxisCells + cell.y) * kMaskAxisCells + cell.x;
 }
 

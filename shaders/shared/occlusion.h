@@ -10,7 +10,7 @@ const uint kCullBones = 3u;
 const uint kMaskStatic = 1u;
 const uint kMaskDynamic = 2u;
 
-// The mask table: octahedral axis x half angle -> samples that may lie in such a cone (methods/conical-culling.md).
+// The mask table: octahedral axis x sine of the half angle -> samples that may lie in such a cone (methods/conical-culling.md).
 const uint kMaskAxisCells = 32u;
 const uint kMaskAngleCells = 16u;
 

@@ -51,7 +51,7 @@ struct CapsuleBlock
     vec3 a;
     float radius;
     vec3 b;
-    uint padding;
+    float reach; // the radius of the sphere about the middle that holds the capsule
 };
 
 struct SphereBlock

@@ -133,6 +133,16 @@ TEST_F(PlaybackTest, ARecordingHoldsWhatWasAsked)
     EXPECT_EQ(parseScript(scriptText(recording), "recording").steps, recording.steps);
 }
 
+TEST_F(PlaybackTest, ResizingBetweenFramesWaitsForNoneAndBreaksNone)
+{
+    for (uint32_t frame = 0; frame < 6; ++frame) {
+        playback_->resize(kSize + 16u * (frame % 3));
+        playback_->perform({});
+        playback_->draw(kStepSeconds, nullptr, nullptr);
+    }
+    EXPECT_EQ(playback_->renderer().picture().width, kSize.x + 32);
+}
+
 TEST_F(PlaybackTest, StatisticsCountWhatWasMeasured)
 {
     play({}, 5);

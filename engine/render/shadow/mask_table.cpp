@@ -93,8 +93,10 @@ std::vector<uint32_t> maskTable(const std::vector<vec4>& samples)
         const AxisCell cell = axisCell(axis % shader::kMaskAxisCells, axis / shader::kMaskAxisCells);
         for (size_t s = 0; s < samples.size(); ++s) {
             const double apart = std::acos(std::clamp(glm::dot(glm::dvec3(samples[s]), cell.middle), -1.0, 1.0)) - cell.radius;
-            // The first angle cell whose widest cone reaches the sample, and all wider ones.
-            const double first = std::ceil(apart * shader::kMaskAngleCells / kHalfPi - 1e-6) - 1.0;
+            if (apart > kHalfPi)
+                continue;
+            // The first cell whose widest cone reaches the sample, and all wider ones.
+            const double first = std::ceil(std::sin(std::max(apart, 0.0)) * shader::kMaskAngleCells - 1e-4) - 1.0;
             for (auto angle = static_cast<uint32_t>(std::max(first, 0.0)); angle < shader::kMaskAngleCells; ++angle)
                 table[(size_t{angle} * axes + axis) * words + s / 32] |= 1u << s % 32;
         }
