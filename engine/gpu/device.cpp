@@ -117,6 +117,7 @@ VkCommandBuffer Device::beginFrame()
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     require(vkBeginCommandBuffer(now.commands, &begin), "vkBeginCommandBuffer");
     bindless_->bind(now.commands);
+    isRecording_ = true;
     return now.commands;
 }
 
@@ -140,6 +141,7 @@ void Device::endFrame(VkSemaphore waitFor, VkSemaphore signal)
                                .pSignalSemaphoreInfos = &done};
     require(vkQueueSubmit2(queue_, 1, &submit, now.done), "vkQueueSubmit2");
     ++frameNumber_;
+    isRecording_ = false;
 }
 
 FrameBytes Device::frameBytes(size_t bytes)
@@ -182,7 +184,12 @@ void Device::submitNow(const std::function<void(VkCommandBuffer)>& record)
 
 void Device::waitIdle() { require(vkDeviceWaitIdle(device_), "vkDeviceWaitIdle"); }
 
-void Device::retire(Retired retired) { frame().retired.push_back(retired); }
+void Device::retire(Retired retired)
+{
+    // Between frames, the one that was submitted last may still use it.
+    const uint64_t user = isRecording_ ? frameNumber_ : frameNumber_ + kFramesInFlight - 1;
+    frames_[user % kFramesInFlight].retired.push_back(retired);
+}
 
 void Device::destroy(const Retired& retired)
 {

@@ -129,6 +129,7 @@ private:
     std::array<Frame, kFramesInFlight> frames_;
     VkCommandPool immediatePool_ = VK_NULL_HANDLE;
     uint64_t frameNumber_ = 0;
+    bool isRecording_ = false; // between beginFrame and endFrame
 };
 
 } // namespace antumbra::gpu

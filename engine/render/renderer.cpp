@@ -33,6 +33,27 @@ void copyToBuffer(graph::Recorder& recorder, ImageRef image, VkBuffer target)
     vkCmdCopyImageToBuffer(recorder.commands(), source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, 1, &region);
 }
 
+/// The picture as it is, in the window's order of channels.
+void declarePresent(graph::FrameGraph& graph, ImageRef picture, const gpu::Image& window)
+{
+    graph::Pass pass = graph.add("present");
+    pass.read(picture, Use::TransferRead);
+    const ImageRef screen = graph.import("window", {.format = window.info().format, .extent = window.info().extent}, graph::importedImage(window), {});
+    const ImageRef shown = pass.write(screen, Use::TransferWrite);
+    pass.record([picture, shown](graph::Recorder& recorder) {
+        const gpu::Image& from = recorder.image(picture);
+        const gpu::Image& to = recorder.image(shown);
+        const auto corner = [](uvec2 extent) { return VkOffset3D{static_cast<int32_t>(extent.x), static_cast<int32_t>(extent.y), 1}; };
+        const VkImageBlit region{.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                 .srcOffsets = {{}, corner(from.info().extent)},
+                                 .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                 .dstOffsets = {{}, corner(to.info().extent)}};
+        vkCmdBlitImage(recorder.commands(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(),
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+    });
+    graph.output(shown, Use::Present);
+}
+
 float srgbDecoded(float encoded) { return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f); }
 
 /// One pixel as four floats.
@@ -120,7 +141,7 @@ void Renderer::declareCapture(Aov aov, ImageRef image)
     graph_.output(target, Use::HostRead);
 }
 
-void Renderer::declare(const FrameView& view)
+void Renderer::declare(const FrameView& view, const gpu::Image* window)
 {
     scene_.prepare(view);
     nearMetres_ = view.camera.nearMetres;
@@ -150,6 +171,8 @@ void Renderer::declare(const FrameView& view)
     declareCapture(Aov::Cones, occluded);
     counters_.declareReadback(graph_, counters);
     graph_.output(picture, Use::TransferRead);
+    if (window != nullptr)
+        declarePresent(graph_, picture, *window);
     compile(graph_, plan_);
 }
 
@@ -157,8 +180,7 @@ void Renderer::render(const FrameView& view, const gpu::Image* window, VkSemapho
 {
     const VkCommandBuffer commands = device_->beginFrame();
     counters_.beginFrame();
-    declare(view);
-    check(window == nullptr, "no window yet");
+    declare(view, window);
     executor_.execute(plan_, graph_, commands);
     device_->endFrame(waitFor, signal);
     captures_ = 0;

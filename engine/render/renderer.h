@@ -68,7 +68,7 @@ public:
 
 private:
     /// The frame, top to bottom; what the view lacks declares nothing.
-    void declare(const FrameView& view);
+    void declare(const FrameView& view, const gpu::Image* window);
 
     struct Readback
     {

@@ -7,8 +7,8 @@ const float kHalfPi = 1.57079632679;
 struct Cone
 {
     vec3 axis; // unit
-    float cosine; // of the half angle less the rounding of a dot product: dot(ray, axis) >= cosine drops no ray of the cone; -1 where `all`
-    float chord; // from the axis to the rim on the unit sphere; tells directions apart where cosines are all 1
+    float cosine; // of the half angle, rounded down: dot(ray, axis) >= cosine holds for every ray of the cone; -1 where `all`
+    float chord; // from the axis to the rim on the unit sphere, rounded up: tells rays apart where cosines are all 1
     float halfAngle; // radians, pi/2 where `all`
     float height; // rays may end here
     bool all; // the apex lies inside: the whole hemisphere about n
@@ -25,10 +25,12 @@ float arcSine(float x)
     return isWide ? kHalfPi - 2.0 * angle : angle;
 }
 
-Cone coneAbout(vec3 axis, float halfAngle, float height)
+// The half angle's sine and cosine are as good as their rounding where it is near nothing and near a right angle; a millionth off the
+// squared cosine is more than that rounding, so that no ray is dropped.
+Cone coneAbout(vec3 axis, float sine, float halfAngle, float height)
 {
-    float chord = 2.0 * sin(0.5 * halfAngle);
-    return Cone(axis, 1.0 - 0.5 * chord * chord - 4.0e-7, chord, halfAngle, height, false);
+    float cosine = sqrt(max(0.0, (1.0 - sine) * (1.0 + sine) - 1.0e-6));
+    return Cone(axis, cosine, sine * sqrt(2.0 / (1.0 + cosine)), halfAngle, height, false);
 }
 
 Cone wholeHemisphere(vec3 n, float height) { return Cone(n, -1.0, 2.0, kHalfPi, height, true); }
@@ -42,7 +44,8 @@ Cone coneOfSphere(vec3 p, vec3 n, vec3 centre, float radius)
     float distance = length(to);
     if (distance <= radius * (1.0 + 1.0e-6))
         return wholeHemisphere(n, distance + radius);
-    return coneAbout(to / distance, arcSine(min(radius / distance, 1.0)), distance + radius);
+    float sine = min(radius / distance, 1.0);
+    return coneAbout(to / distance, sine, arcSine(sine), distance + radius);
 }
 
 // Both spheres of a capsule lie in a convex cone, so their hull does. Half angles past a right angle hold everything.
@@ -56,13 +59,14 @@ Cone coneOfCapsule(vec3 p, vec3 n, vec3 a, vec3 b, float radius)
     if (min(length(toA + t * ab), min(lengthA, lengthB)) <= radius * (1.0 + 1.0e-6))
         return wholeHemisphere(n, height);
     vec3 axisA = toA / lengthA, axisB = toB / lengthB;
-    float angleA = arcSine(min(radius / lengthA, 1.0)), angleB = arcSine(min(radius / lengthB, 1.0));
+    float sineA = min(radius / lengthA, 1.0), sineB = min(radius / lengthB, 1.0);
+    float angleA = arcSine(sineA), angleB = arcSine(sineB);
     // Between the axes by the half chord: exact for small angles, where acos is not.
     float between = 2.0 * arcSine(min(0.5 * length(axisA - axisB), 1.0));
     if (between + angleB <= angleA)
-        return coneAbout(axisA, angleA, height);
+        return coneAbout(axisA, sineA, angleA, height);
     if (between + angleA <= angleB)
-        return coneAbout(axisB, angleB, height);
+        return coneAbout(axisB, sineB, angleB, height);
     float halfAngle = 0.5 * (between + angleA + angleB) + 1.0e-5;
     if (halfAngle >= 1.5707)
         return wholeHemisphere(n, height);
@@ -71,7 +75,7 @@ Cone coneOfCapsule(vec3 p, vec3 n, vec3 a, vec3 b, float radius)
     float tangentLength = length(tangent);
     float turn = halfAngle - angleA;
     vec3 axis = tangentLength > 1.0e-7 ? normalize(axisA * cos(turn) + tangent * (sin(turn) / tangentLength)) : axisA;
-    return coneAbout(axis, halfAngle, height);
+    return coneAbout(axis, sin(halfAngle), halfAngle, height);
 }
 
 // A ray that only rounding puts outside is held.
