@@ -9,6 +9,7 @@
 #include "lib/octahedral.glsl"
 
 // First term minus occluded irradiance, times albedo over pi; the environment where nothing is (Xu et al. 2022, eq. 2 and 3).
+// Variant EXPLAINS: the views that are not the final picture.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
@@ -29,6 +30,7 @@ vec3 skyRadiance(vec2 pixel)
 
 vec3 occludedAt(uint slot, ivec2 pixel) { return slot == kNoOcclusion ? vec3(0.0) : texelFetch(sampledImages[slot], pixel, 0).rgb; }
 
+#ifdef EXPLAINS
 // Blue, green, yellow, red over 0..1.
 vec3 heat(float t)
 {
@@ -49,6 +51,8 @@ vec3 viewed(ivec2 pixel, vec3 albedo, vec3 firstTerm, vec3 occluded, vec3 final)
     default: return final;
     }
 }
+
+#endif
 
 void countBroken(vec3 firstTerm, vec3 occluded)
 {
@@ -84,7 +88,11 @@ void main()
     countBroken(firstTerm, occluded);
     vec3 irradiance = shadowedIrradiance(firstTerm, occluded);
     vec3 final = albedo * kInversePi * irradiance;
-    vec3 shown = pc.view == kViewFinal || uint(pixel.x) < pc.splitX ? final : viewed(pixel, albedo, firstTerm, occluded, final);
+    vec3 shown = final;
+#ifdef EXPLAINS
+    if (uint(pixel.x) >= pc.splitX)
+        shown = viewed(pixel, albedo, firstTerm, occluded, final);
+#endif
     imageStore(storageImages[pc.color], pixel, vec4(shown, 1.0));
     if (pc.hasIrradiance != 0u)
         imageStore(storageImages[pc.irradiance], pixel, vec4(irradiance, 1.0));

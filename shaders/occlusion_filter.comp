@@ -41,7 +41,7 @@ void main()
             if (depthThere == 0.0)
                 continue;
             vec3 normalThere = unitFromOctahedral(texelFetch(sampledImages[pc.normals], fullThere, 0).zw);
-            float weight = samePlane(plane, vec2(fullThere - full), near / depthThere, normalThere);
+            float weight = samePlane(plane, vec2(fullThere - full), near / depthThere) * sameFacing(plane, normalThere);
             weight *= (abs(dx) == pc.radius ? 0.5 : 1.0) * (abs(dy) == pc.radius ? 0.5 : 1.0);
             sum += weight * texelFetch(sampledImages[pc.occluded], there, 0).rgb;
             weights += weight;

@@ -148,16 +148,13 @@ uvec4 samplesThatHit(uvec4 candidates, uint base, vec3 a, vec3 b, float radius)
     return hits;
 }
 
-// The samples that may hit the capsule: those in the cone of the sphere about it from afar, in its own cone from near.
+// The samples in the cone of the sphere about the capsule: coarse, cheap, and left to samplesThatHit to refine.
 uvec4 capsuleCandidates(Receiver r, CapsuleBlock capsule, vec3 toMiddle, uint base)
 {
-    float distance2 = dot(toMiddle, toMiddle);
-    if (distance2 > 4.0 * capsule.reach * capsule.reach) {
-        float inverse = inversesqrt(distance2);
-        return maskOf(toMiddle * inverse * r.frame, capsule.reach * inverse, base);
-    }
-    Cone cone = coneOfCapsule(r.origin, r.normal, capsule.a, capsule.b, capsule.radius);
-    return cone.all ? uvec4(0xffffffffu) : maskOf(cone.axis * r.frame, sin(cone.halfAngle), base);
+    float inverse = inversesqrt(max(dot(toMiddle, toMiddle), 1.0e-20));
+    float sine = capsule.reach * inverse;
+    uvec4 inCone = maskOf(toMiddle * inverse * r.frame, min(sine, 1.0), base);
+    return sine < 0.99999 ? inCone : uvec4(0xffffffffu);
 }
 
 void addCapsule(Receiver r, CapsuleBlock capsule, uvec4 among, uint base, inout Survivors survivors)
@@ -259,17 +256,11 @@ void traceSurvivors(Receiver r, bool isSurface)
         raysTraced += mine;
         fars[me] = survivors.far;
         uint all = groupSum(mine);
-        if (all == 0u)
-            continue;
-        if (all <= kListSize) {
-            traceTogether(r, survivors.samples, base);
-            continue;
-        }
-        // A word of every pixel always fits.
-        for (uint w = 0u; w < 4u; ++w) {
-            uvec4 word = uvec4(0u);
-            word[w] = survivors.samples[w];
-            traceTogether(r, word, base);
+        // All rays in one round where they fit the list; a word of every pixel always does.
+        uint rounds = all == 0u ? 0u : all <= kListSize ? 1u : 4u;
+        for (uint round = 0u; round < rounds; ++round) {
+            bvec4 isTurn = equal(uvec4(0u, 1u, 2u, 3u), uvec4(round));
+            traceTogether(r, rounds == 1u ? survivors.samples : mix(uvec4(0u), survivors.samples, isTurn), base);
         }
     }
 }

@@ -41,8 +41,7 @@ void main()
         if (depthThere == 0.0)
             continue;
         vec4 value = texelFetch(sampledImages[pc.coarse], coarse, 0);
-        vec3 normalThere = unitFromOctahedral(texelFetch(sampledImages[pc.normals], full, 0).zw);
-        float likeness = samePlane(plane, vec2(full - pixel), frameBlock.near / depthThere, normalThere);
+        float likeness = samePlane(plane, vec2(full - pixel), frameBlock.near / depthThere);
         vec2 bilinear = mix(1.0 - share, share, vec2(step));
         float weight = likeness * bilinear.x * bilinear.y;
         sum += weight * value;

@@ -12,11 +12,17 @@ static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDiffer
 
 } // namespace
 
-CompositeSystem::CompositeSystem(gpu::Device& device) : pipeline_(computePipeline(device, "composite.comp")) {}
+CompositeSystem::CompositeSystem(gpu::Device& device) : device_(&device), final_(computePipeline(device, "composite.comp")) {}
 
 Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GBuffer& g,
-                                  graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance) const
+                                  graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance)
 {
+    const bool explains = view.knobs.view != ViewMode::Final;
+    if (explains && !explaining_) {
+        constexpr gpu::ShaderDefine define{"EXPLAINS"};
+        explaining_ = computePipeline(*device_, "composite.comp", std::span(&define, 1));
+    }
+    const gpu::Pipeline& pipeline = explains ? explaining_ : final_;
     graph::Pass pass = graph.add("composite");
     for (const graph::ImageRef image : {g.depth, g.normals, g.albedo, g.unshadowed})
         pass.read(image, Use::Sampled);
@@ -31,9 +37,9 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
     if (wantsIrradiance)
         composed.irradiance = pass.create("irradiance", desc, Use::StorageWrite);
 
-    pass.record([this, &view, addresses, g, occluded, reference, composed, counted = counters](graph::Recorder& recorder) {
+    pass.record([&pipeline, &view, addresses, g, occluded, reference, composed, counted = counters](graph::Recorder& recorder) {
         const auto slot = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNoOcclusion; };
-        recorder.dispatch(pipeline_,
+        recorder.dispatch(pipeline,
                           shader::Composite{.counters = recorder.address(counted),
                                             .frame = addresses.frame,
                                             .depth = recorder.sampled(g.depth),

@@ -18,10 +18,12 @@ public:
 
     /// `occluded` and `reference` may be absent.
     Composed declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GBuffer& g,
-                     graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance) const;
+                     graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance);
 
 private:
-    gpu::Pipeline pipeline_;
+    gpu::Device* device_;
+    gpu::Pipeline final_;
+    gpu::Pipeline explaining_; // made when a view first asks for it
 };
 
 } // namespace antumbra::render

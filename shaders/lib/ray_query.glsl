@@ -19,16 +19,23 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
     return rayQueryGetIntersectionTEXT(query, true);
 }
 
+// Any dynamic hit will do where nothing static lies before it; only else must the closest one be known. One loop with one query in it:
+// CPU devices run the code of every branch, so the query must stand in the program once.
 bool dynamicHitsFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
 {
-    // Any dynamic hit will do where nothing static lies before it; only else must the closest one be known.
-    float dynamicAt = closestHit(scene, kMaskDynamic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, far);
-    if (dynamicAt < 0.0)
-        return false;
-    if (closestHit(scene, kMaskStatic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, dynamicAt) < 0.0)
-        return true;
-    dynamicAt = closestHit(scene, kMaskDynamic, gl_RayFlagsNoneEXT, origin, direction, dynamicAt);
-    return closestHit(scene, kMaskStatic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, dynamicAt) < 0.0;
+    const uint kAnyDynamic = 0u, kStaticBefore = 1u, kClosestDynamic = 2u, kStaticBeforeClosest = 3u, kDone = 4u;
+    uint asked = kAnyDynamic;
+    bool hidden = false;
+    while (asked != kDone) {
+        bool isDynamic = asked == kAnyDynamic || asked == kClosestDynamic;
+        uint flags = asked == kClosestDynamic ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT;
+        float at = closestHit(scene, isDynamic ? kMaskDynamic : kMaskStatic, flags, origin, direction, far);
+        hidden = !isDynamic && at < 0.0;
+        far = isDynamic && at >= 0.0 ? at : far;
+        bool goesOn = asked == kAnyDynamic ? at >= 0.0 : asked == kStaticBefore ? at >= 0.0 : asked == kClosestDynamic;
+        asked = goesOn ? asked + 1u : kDone;
+    }
+    return hidden;
 }
 
 // The same by one ray through everything: what a renderer without culling does. Instances carry their mask as custom index.

@@ -37,13 +37,15 @@ PixelPlane pixelPlane(FrameBlock frame, vec2 pixel, float depth, vec3 normal)
     return PixelPlane(dot(normal, ray), vec2(dot(normal, frame.rayX), dot(normal, frame.rayY)), frame.near / depth, normal);
 }
 
-// 1 for a neighbour on the same plane, towards 0 off it: 2 % of the view depth away, or turned by half a right angle.
-float samePlane(PixelPlane plane, vec2 offset, float depthViewThere, vec3 normalThere)
+// 1 for a neighbour on the same plane, towards 0 off it: a half at 2 % of the view depth away.
+float samePlane(PixelPlane plane, vec2 offset, float depthViewThere)
 {
     float distance = depthViewThere * (plane.alongRay + dot(plane.perPixel, offset)) - plane.depthView * plane.alongRay;
     float off = distance * (50.0 / plane.depthView);
-    float turned = clamp(4.0 * dot(plane.normal, normalThere) - 3.0, 0.0, 1.0);
-    return turned / (1.0 + off * off * off * off);
+    return 1.0 / (1.0 + off * off * off * off);
 }
+
+// 1 for a neighbour that faces the same way, 0 from half a right angle on.
+float sameFacing(PixelPlane plane, vec3 normalThere) { return clamp(4.0 * dot(plane.normal, normalThere) - 3.0, 0.0, 1.0); }
 
 #endif

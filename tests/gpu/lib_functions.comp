@@ -1,0 +1,123 @@
+// The functions of shaders/lib, one at a time: the define names it, In and Out are its arguments and results.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindless.glsl"
+#include "shared/frame.h"
+#include "shared/occlusion.h"
+#include "lib/surface.glsl"
+#include "lib/hemisphere.glsl"
+#include "lib/sh.glsl"
+#include "lib/cone.glsl"
+#include "lib/intersect.glsl"
+#include "lib/mask_table.glsl"
+#include "lib/compose.glsl"
+#include "lib/tone.glsl"
+
+#ifdef ARC_SINE
+
+struct In { float sine; };
+struct Out { float angle; };
+Out evaluate(In x) { return Out(arcSine(x.sine)); }
+
+#elif defined(CONE_OF_CAPSULE)
+
+struct In { vec3 p; vec3 n; vec3 a; vec3 b; float radius; vec3 direction; };
+struct ConeOut { vec3 axis; float cosine; float chord; float halfAngle; float height; uint all; uint holds; };
+struct Out { ConeOut capsule; ConeOut sphere; uint isBehind; uint hitsCapsule; uint hitsSphere; float share; };
+ConeOut described(Cone cone, vec3 direction)
+{
+    return ConeOut(cone.axis, cone.cosine, cone.chord, cone.halfAngle, cone.height, uint(cone.all), uint(holds(cone, direction)));
+}
+// The sphere is the one at a.
+Out evaluate(In x)
+{
+    Cone capsule = coneOfCapsule(x.p, x.n, x.a, x.b, x.radius), sphere = coneOfSphere(x.p, x.n, x.a, x.radius);
+    return Out(described(capsule, x.direction), described(sphere, x.direction), uint(isBehind(x.p, x.n, x.a, x.radius)),
+               uint(hitsCapsule(x.p, x.direction, x.a, x.b, x.radius)), uint(hitsSphere(x.p, x.direction, x.a, x.radius)),
+               greatestShare(sphere, x.n));
+}
+
+#elif defined(OCTAHEDRAL)
+
+struct In { vec3 direction; };
+struct Out { vec2 square; vec3 direction; };
+Out evaluate(In x)
+{
+    vec2 square = octahedralFromUnit(x.direction);
+    return Out(square, unitFromOctahedral(square));
+}
+
+#elif defined(TANGENT_FRAME)
+
+struct In { vec3 normal; float radians; };
+struct Out { vec3 x; vec3 y; vec3 z; };
+Out evaluate(In x)
+{
+    mat3 frame = turnedFrame(x.normal, x.radians);
+    return Out(frame[0], frame[1], frame[2]);
+}
+
+#elif defined(HAMMERSLEY)
+
+struct In { uint i; uint count; };
+struct Out { vec3 direction; };
+Out evaluate(In x) { return Out(cosineHammersley(x.i, x.count, 0.5)); }
+
+#elif defined(SH_BASIS)
+
+struct In { vec3 direction; };
+struct Out { float basis[9]; };
+Out evaluate(In x)
+{
+    Out result;
+    shBasis3(x.direction, result.basis);
+    return result;
+}
+
+#elif defined(MASK_CELL)
+
+struct In { vec3 axis; float sine; };
+struct Out { uint cell; };
+Out evaluate(In x) { return Out(maskCell(x.axis, x.sine)); }
+
+#elif defined(RAY_ORIGIN)
+
+struct In { vec3 position; vec3 normal; vec3 eye; };
+struct Out { vec3 origin; float error; };
+Out evaluate(In x) { return Out(rayOrigin(x.position, x.normal, x.eye), positionError(x.position, x.eye)); }
+
+#elif defined(COMPOSE)
+
+struct In { vec3 firstTerm; vec3 occluded; };
+struct Out { vec3 shadowed; uint isClamped; };
+Out evaluate(In x) { return Out(shadowedIrradiance(x.firstTerm, x.occluded), uint(isClamped(x.firstTerm, x.occluded))); }
+
+#elif defined(TONE)
+
+struct In { vec3 radiance; };
+struct Out { vec3 mapped; vec3 encoded; };
+Out evaluate(In x)
+{
+    vec3 mapped = toneMapped(x.radiance);
+    return Out(mapped, srgbEncoded(mapped));
+}
+
+#endif
+
+layout(buffer_reference, scalar) readonly buffer Inputs { In value[]; };
+layout(buffer_reference, scalar) writeonly buffer Outputs { Out value[]; };
+layout(push_constant, scalar) uniform Push
+{
+    uint64_t inputs;
+    uint64_t outputs;
+    uint count;
+} pc;
+
+layout(local_size_x = 64) in;
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    if (i < pc.count)
+        Outputs(pc.outputs).value[i] = evaluate(Inputs(pc.inputs).value[i]);
+}
