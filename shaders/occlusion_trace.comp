@@ -15,6 +15,7 @@
 #include "lib/intersect.glsl"
 #include "lib/mask_table.glsl"
 #include "lib/ray_query.glsl"
+#include "lib/traced.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Samples { vec4 direction[]; };
 layout(buffer_reference, scalar) readonly buffer Masks { uvec4 samples[]; };
@@ -300,8 +301,8 @@ Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 void main()
 {
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    uvec2 extent = uvec2(imageSize(storageImages[pc.occluded]));
     uvec2 fullExtent = uvec2(textureSize(sampledImages[pc.depth], 0));
+    uvec2 extent = uvec2(ceil(vec2(fullExtent) / pc.pixelScale));
     uvec2 fullPixel = min(uvec2((vec2(pixel) + 0.5) * pc.pixelScale), fullExtent - 1u);
     bool isInside = all(lessThan(pixel, extent));
     float depth = isInside ? texelFetch(sampledImages[pc.depth], ivec2(fullPixel), 0).x : 0.0;
@@ -320,7 +321,14 @@ void main()
 #else
     traceSurvivors(r, isSurface); // all of the group, for its barriers
 #endif
+#ifdef REFERENCE
     if (isInside)
-        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(), float(coneCount)));
+        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(), 0.0));
+#else
+    float depthView = isSurface ? frameBlock.near / depth : 0.0;
+    TracedPixel traced = TracedPixel(hiddenIrradiance(), float(coneCount), depthView, octahedralFromUnit(r.normal));
+    if (isInside)
+        imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));
+#endif
     count();
 }

@@ -4,6 +4,7 @@
 #include "render/shader_structs.h"
 #include "render/shadow/mask_table.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace antumbra::app {

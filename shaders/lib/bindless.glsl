@@ -10,7 +10,9 @@
 #extension GL_EXT_samplerless_texture_functions : require
 
 layout(set = 0, binding = 0) uniform texture2D sampledImages[];
+layout(set = 0, binding = 0) uniform utexture2D sampledWordImages[];
 layout(set = 0, binding = 1) uniform image2D storageImages[];
+layout(set = 0, binding = 1) uniform uimage2D storageWordImages[];
 layout(set = 0, binding = 2) uniform sampler samplers[4];
 
 const uint kLinearClamp = 0u;

@@ -31,21 +31,27 @@ struct PixelPlane
     vec3 normal;
 };
 
-PixelPlane pixelPlane(FrameBlock frame, vec2 pixel, float depth, vec3 normal)
+PixelPlane pixelPlane(FrameBlock frame, vec2 pixel, float depthView, vec3 normal)
 {
     vec3 ray = frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY;
-    return PixelPlane(dot(normal, ray), vec2(dot(normal, frame.rayX), dot(normal, frame.rayY)), frame.near / depth, normal);
+    return PixelPlane(dot(normal, ray), vec2(dot(normal, frame.rayX), dot(normal, frame.rayY)), depthView, normal);
 }
 
-// 1 for a neighbour on the same plane, towards 0 off it: a half at 2 % of the view depth away.
+// 1 for a neighbour on the same plane, towards 0 off it: a half at 0.5 % of the view depth away.
 float samePlane(PixelPlane plane, vec2 offset, float depthViewThere)
 {
     float distance = depthViewThere * (plane.alongRay + dot(plane.perPixel, offset)) - plane.depthView * plane.alongRay;
-    float off = distance * (50.0 / plane.depthView);
+    float off = distance * (200.0 / plane.depthView);
     return 1.0 / (1.0 + off * off * off * off);
 }
 
-// 1 for a neighbour that faces the same way, 0 from half a right angle on.
-float sameFacing(PixelPlane plane, vec3 normalThere) { return clamp(4.0 * dot(plane.normal, normalThere) - 3.0, 0.0, 1.0); }
+// 1 for a neighbour that faces the same way, a half at 23 degrees.
+float sameFacing(PixelPlane plane, vec3 normalThere)
+{
+    float c = max(dot(plane.normal, normalThere), 0.0);
+    c *= c;
+    c *= c;
+    return c * c;
+}
 
 #endif

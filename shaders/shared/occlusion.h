@@ -54,7 +54,7 @@ struct OcclusionTrace
     uint capsules; // CapsuleBlock[]
     uint depth;
     uint normals;
-    uint occluded; // rgb: W/m^2; a: cones
+    uint occluded; // written: a traced pixel, or by the reference W/m^2
     uint sampleCount;
     uint blockerCount;
     float tolerance; // share of the unshadowed irradiance a cone may at most hide to be left out
@@ -62,15 +62,15 @@ struct OcclusionTrace
     uint frameIndex; // of the reference's accumulation
 };
 
+// Images of traced pixels are those of lib/traced.glsl.
 struct OcclusionFilter
 {
     uint frame; // slot of a FrameBlock
-    uint depth;
-    uint normals;
-    uint occluded;
+    uint traced;
     uint filtered;
-    int radius; // pixels
+    int radius; // traced pixels
     float pixelScale;
+    uvec2 lastPixel; // of the G-buffer
 };
 
 struct OcclusionUpsample

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 
 namespace antumbra::app {
 namespace {
@@ -87,11 +88,12 @@ TEST_F(Golden, MoreCasesThanABatchHolds)
 
 TEST_F(Golden, MalformedCasesAreRefusedByNameOfTheFile)
 {
-    for (const char* text : {"", "[", "[]", "{}", R"({"cases": 1})", R"({"cases": [1]})", R"({"cases": [{}]})", R"({"cases": [{"id": "a"}]})",
-                             R"({"cases": [{"id": "a", "p": [0, 0], "n": [0, 1, 0], "spheres": []}]})",
+    for (const char* text : {"", "[", "[]", "{}", R"({"cases": 1})", R"({"cases": [1]})", R"({"cases": [{}]})",
+                             R"({"cases": [{"id": "a"}]})", R"({"cases": [{"id": "a", "p": [0, 0], "n": [0, 1, 0], "spheres": []}]})",
                              R"({"cases": [{"id": "a", "p": [0, 0, 0], "n": [0, 0, 0], "spheres": []}]})",
                              R"({"cases": [{"id": "a", "p": [0, 0, 0], "n": [0, 1, 0], "spheres": [{"center": [0, 0, 0]}]}]})",
-                             R"({"cases": [{"id": "a", "p": [0, 0, 0], "n": [0, 1, 0], "spheres": [], "cones": 1, "merged": []}]})"}) {
+                             R"({"cases": [{"id": "a", "p": [0, 0, 0], "n": [0, 1, 0], "spheres": [], "cones": 1, "merged": []}]})"})
+    {
         const Path file = written(text);
         try {
             (void)evaluateCones(device(), file);

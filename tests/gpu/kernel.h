@@ -3,6 +3,7 @@
 
 #include "gpu/dispatch.h"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 

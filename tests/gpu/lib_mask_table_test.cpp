@@ -17,33 +17,52 @@ struct In
 };
 
 constexpr uint32_t kSampleCount = 128;
-constexpr size_t kConeCount = 20000; // times the samples: 2.56 million tests
+constexpr size_t kConeCount = 80000; // times the samples: ten million tests
 
-// Axes at random, on folds and poles, and on the borders between cells; half angles at random, on borders, near nothing and near pi/2.
-std::vector<In> cones()
+// A corner of a cell or a point of its border, a hair to either side: there the axis is farthest from the cell's middle.
+vec3 borderAxis(RandomInputs& random)
+{
+    const auto border = [&] {
+        return -1 + 2.0 * random.index(shader::kMaskAxisCells + 1) / shader::kMaskAxisCells + random.uniform(-1e-5, 1e-5);
+    };
+    const double x = std::clamp(border(), -1.0, 1.0), y = random.index(2) == 0 ? std::clamp(border(), -1.0, 1.0) : random.uniform(-1, 1);
+    const double z = 1 - std::abs(x) - std::abs(y);
+    if (z >= 0)
+        return vec3(glm::normalize(dvec3(x, y, z)));
+    return vec3(glm::normalize(dvec3(std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), z)));
+}
+
+vec3 anyAxis(RandomInputs& random, const std::vector<vec3>& awkward)
+{
+    switch (random.index(4)) {
+    case 0: return awkward[random.index(static_cast<uint32_t>(awkward.size()))];
+    case 1: return vec3(random.direction());
+    default: return borderAxis(random);
+    }
+}
+
+// Half angles near nothing and near pi/2, on the borders of cells, and such that the cone just reaches a sample.
+double anySine(RandomInputs& random, const dvec3& axis, const std::vector<vec4>& samples)
+{
+    switch (random.index(8)) {
+    case 0: return random.index(shader::kMaskAngleCells + 1) / double{shader::kMaskAngleCells};
+    case 1: return random.logUniform(1e-6, 1);
+    case 2: return 1 - random.logUniform(1e-7, 1);
+    default: break;
+    }
+    const dvec3 sample(samples[random.index(static_cast<uint32_t>(samples.size()))]);
+    return glm::dot(axis, sample) > 0 ? std::min(glm::length(glm::cross(axis, sample)) + 2e-6, 1.0) : random.uniform(0, 1);
+}
+
+std::vector<In> cones(const std::vector<vec4>& samples)
 {
     RandomInputs random(4);
     const std::vector<vec3> awkward = awkwardDirections();
-    const auto axis = [&]() -> vec3 {
-        if (random.index(3) == 0)
-            return awkward[random.index(static_cast<uint32_t>(awkward.size()))];
-        if (random.index(2) == 0)
-            return vec3(random.direction());
-        const dvec3 v(-1 + 2.0 * random.index(shader::kMaskAxisCells) / shader::kMaskAxisCells, random.uniform(-1, 1), 0);
-        const double z = 1 - std::abs(v.x) - std::abs(v.y);
-        return vec3(glm::normalize(z >= 0 ? dvec3(v.x, v.y, z) : dvec3(1 - std::abs(v.y), 1 - std::abs(v.x), z)));
-    };
-    const auto sine = [&]() -> double {
-        switch (random.index(4)) {
-        case 0: return random.index(shader::kMaskAngleCells + 1) / double{shader::kMaskAngleCells};
-        case 1: return random.logUniform(1e-6, 1);
-        case 2: return 1 - random.logUniform(1e-7, 1);
-        default: return std::sin(random.uniform(0, std::numbers::pi / 2));
-        }
-    };
     std::vector<In> inputs(kConeCount);
-    for (In& in : inputs)
-        in = {axis(), static_cast<float>(sine())};
+    for (In& in : inputs) {
+        in.axis = anyAxis(random, awkward);
+        in.sine = static_cast<float>(anySine(random, dvec3(in.axis), samples));
+    }
     return inputs;
 }
 
@@ -55,7 +74,7 @@ TEST_F(LibMaskTable, HoldsEverySampleOfEveryCone)
 {
     const std::vector<vec4> samples = render::hemisphereSamples(kSampleCount);
     const std::vector<uint32_t> table = render::maskTable(samples);
-    const std::vector<In> inputs = cones();
+    const std::vector<In> inputs = cones(samples);
     const std::vector<uint32_t> cells = runKernel<uint32_t>(device(), "lib_functions.comp", "MASK_CELL", inputs);
     uint64_t inside = 0, candidates = 0;
     for (size_t i = 0; i < inputs.size(); ++i) {

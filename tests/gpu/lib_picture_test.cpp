@@ -72,8 +72,10 @@ TEST_F(LibPicture, ShadowedIrradianceStaysBetweenNothingAndTheFirstTerm)
         for (int c = 0; c < 3; ++c) {
             const float first = std::max(inputs[i].firstTerm[c], 0.0f), left = inputs[i].firstTerm[c] - inputs[i].occluded[c];
             ASSERT_FLOAT_EQ(outputs[i].shadowed[c], std::clamp(left, 0.0f, first)) << i;
-            if (outputs[i].isClamped == 0)
+            // A first term below nothing is ringing of its own, not the occlusion's.
+            if (outputs[i].isClamped == 0 && inputs[i].firstTerm[c] >= 0) {
                 ASSERT_NEAR(outputs[i].shadowed[c], left, 1.01e-3 * std::abs(inputs[i].firstTerm[c]) + 1.01e-6) << i;
+            }
         }
 }
 
@@ -94,8 +96,9 @@ TEST_F(LibPicture, MoreRadianceIsNeverShownDarker)
     for (size_t i = 0; i < inputs.size(); ++i) {
         ASSERT_GE(std::min({outputs[i].mapped.x, outputs[i].mapped.y, outputs[i].mapped.z}), 0.0f) << i;
         ASSERT_LE(peak(outputs[i].mapped), 1.0f + 1e-6f) << i;
-        if (i % kSteps != 0)
+        if (i % kSteps != 0) {
             ASSERT_GE(peak(outputs[i].mapped), peak(outputs[i - 1].mapped) - 1e-6f) << i;
+        }
         for (int c = 0; c < 3; ++c) {
             const double linear = outputs[i].mapped[c];
             ASSERT_NEAR(outputs[i].encoded[c], linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055, 2e-5) << i;
@@ -105,7 +108,8 @@ TEST_F(LibPicture, MoreRadianceIsNeverShownDarker)
 
 TEST_F(LibPicture, ToneMappingIsFinite)
 {
-    const std::vector<vec3> inputs{vec3(0), vec3(1e-40f), vec3(1e18f), vec3(1e18f, 0, 0), vec3(0, 1e-40f, 1e18f), vec3(-1), vec3(-1e18f, 1, 1e18f)};
+    const std::vector<vec3> inputs{vec3(0),  vec3(1e-40f),          vec3(1e18f), vec3(1e18f, 0, 0), vec3(0, 1e-40f, 1e18f),
+                                   vec3(-1), vec3(-1e18f, 1, 1e18f)};
     for (const ToneOut& out : runKernel<ToneOut>(device(), kKernel, "TONE", inputs))
         for (int c = 0; c < 3; ++c)
             EXPECT_TRUE(std::isfinite(out.mapped[c]) && std::isfinite(out.encoded[c]));

@@ -9,6 +9,7 @@ namespace {
 using graph::Use;
 
 constexpr uvec2 kTraceGroup{16, 8}; // pixels, as in occlusion_trace.comp
+constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/traced.glsl
 constexpr gpu::Format kOccludedFormat = gpu::Format::Rgba16Float;
 
 } // namespace
@@ -22,7 +23,7 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
     }
     if (knobs.filter > 0 && !filter_)
         filter_ = computePipeline(*device_, "occlusion_filter.comp");
-    if (knobs.scale != Scale::Full && !upsample_)
+    if (!upsample_)
         upsample_ = computePipeline(*device_, "occlusion_upsample.comp");
     if (sampleCount_ == knobs.samples && (masks_ || knobs.culling != Culling::Bones))
         return;
@@ -45,7 +46,7 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     pass.read(posed.bounds, Use::StorageRead);
     counters = pass.write(counters, Use::StorageWrite);
     const graph::ImageRef traced =
-        pass.create("occluded, traced", {.format = kOccludedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
+        pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
     const gpu::Pipeline& pipeline = trace_[static_cast<size_t>(knobs.culling)];
     pass.record([this, &view, &scene, &pipeline, addresses, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
@@ -80,19 +81,16 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
         return traced;
     }
     graph::Pass pass = graph.add("occlusion filter");
-    pass.read(g.depth, Use::Sampled);
-    pass.read(g.normals, Use::Sampled);
     pass.read(traced, Use::Sampled);
-    const graph::ImageRef filtered = pass.create("occluded, filtered", {.format = kOccludedFormat, .like = traced}, Use::StorageWrite);
-    pass.record([this, &knobs, addresses, g, traced, filtered](graph::Recorder& recorder) {
+    const graph::ImageRef filtered = pass.create("occluded, filtered", {.format = kTracedFormat, .like = traced}, Use::StorageWrite);
+    pass.record([this, &knobs, addresses, traced, filtered, last = graph.extent(g.depth) - 1u](graph::Recorder& recorder) {
         recorder.dispatch(filter_,
                           shader::OcclusionFilter{.frame = addresses.frame,
-                                                  .depth = recorder.sampled(g.depth),
-                                                  .normals = recorder.sampled(g.normals),
-                                                  .occluded = recorder.sampled(traced),
+                                                  .traced = recorder.sampled(traced),
                                                   .filtered = recorder.storage(filtered),
                                                   .radius = static_cast<int>(knobs.filter / 2),
-                                                  .pixelScale = static_cast<float>(knobs.scale)},
+                                                  .pixelScale = static_cast<float>(knobs.scale),
+                                                  .lastPixel = last},
                           recorder.extent(filtered));
     });
     return filtered;
@@ -102,10 +100,6 @@ graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const
                                                  const GBuffer& g, graph::ImageRef coarse)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
-    if (knobs.scale == Scale::Full) {
-        graph.skip("occlusion upsample", "occlusion.scale is 1");
-        return coarse;
-    }
     graph::Pass pass = graph.add("occlusion upsample");
     pass.read(g.depth, Use::Sampled);
     pass.read(g.normals, Use::Sampled);

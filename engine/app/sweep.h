@@ -1,0 +1,40 @@
+// A sweep of the lab as its JSON file describes it, checked value by value: which scenes with which knobs are measured how often.
+// Measures nothing and loads no scene.
+#pragma once
+
+#include "base/file.h"
+#include "base/math.h"
+#include "render/knobs.h"
+
+#include <string>
+#include <vector>
+
+namespace antumbra::app {
+
+/// One row of the results.
+struct SweepPoint
+{
+    std::string name;  // unique in the sweep
+    std::string scene; // as the commands take it
+    uvec2 size{640, 360};
+    float seconds = 0;             // of the clips
+    uint32_t frames = 4;           // measured a round
+    bool animates = true;          // every frame has a new pose, about `seconds`
+    uint32_t referenceSamples = 0; // that the error is measured against; 0: it is not
+    render::Settings settings;     // over the device's defaults and the scene's own
+};
+
+struct Sweep
+{
+    std::string name;
+    uint32_t repeats = 5; // rounds, each over all points
+    uint32_t warmUp = 3;  // frames a point that do not count
+    std::vector<SweepPoint> points;
+};
+
+/// {"name", "repeats", "warmup", "grid", "points":[{"name", "scene", "size":[w,h], "time", "frames", "animate", "reference",
+/// "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a point stands for every combination of its grid, or of the sweep's where it has
+/// none of its own. Throws Error of one line for unknown keys, with the nearest known, wrong types and values out of range.
+Sweep loadSweep(const Path& file);
+
+} // namespace antumbra::app

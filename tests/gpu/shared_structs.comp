@@ -1,0 +1,273 @@
+// The members of a shared struct, one after the other in their order, as the device reads them from the second of two in a row: an offset
+// or a size that differs from the host's shifts them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindless.glsl"
+#include "shared/frame.h"
+#include "shared/scene.h"
+#include "shared/skinning.h"
+#include "shared/occlusion.h"
+#include "shared/composite.h"
+#include "shared/eval.h"
+
+layout(buffer_reference, scalar) writeonly buffer Words { uint word[]; };
+layout(push_constant, scalar) uniform Push
+{
+    uint64_t inputs;
+    uint64_t outputs;
+    uint count;
+} pc;
+
+layout(local_size_x = 1) in;
+
+uint next = 0u;
+
+void put(uint value) { Words(pc.outputs).word[next++] = value; }
+void put(float value) { put(floatBitsToUint(value)); }
+void put(uint64_t value)
+{
+    uvec2 words = unpackUint2x32(value);
+    put(words.x);
+    put(words.y);
+}
+void put(vec3 value)
+{
+    for (int i = 0; i < 3; ++i)
+        put(value[i]);
+}
+void put(vec4 value)
+{
+    for (int i = 0; i < 4; ++i)
+        put(value[i]);
+}
+void put(mat4 value)
+{
+    for (int i = 0; i < 4; ++i)
+        put(value[i]);
+}
+
+#if defined(FRAME_BLOCK)
+
+#define Block FrameBlock
+void echo(FrameBlock b)
+{
+    put(b.clipFromWorld);
+    put(b.worldFromClip);
+    put(b.eye);
+    put(b.cornerRay);
+    put(b.rayX);
+    put(b.rayY);
+    put(b.near);
+    put(b.environment);
+    put(b.environmentRotation);
+    put(b.environmentIntensity);
+    put(b.exposure);
+    put(b.shBands);
+    for (int i = 0; i < b.radianceSh.length(); ++i)
+        put(b.radianceSh[i]);
+    for (int i = 0; i < b.irradianceSh.length(); ++i)
+        put(b.irradianceSh[i]);
+}
+
+#elif defined(INSTANCE_BLOCK)
+
+#define Block InstanceBlock
+void echo(InstanceBlock b)
+{
+    put(b.worldFromLocal);
+    put(b.normalFromLocal);
+    put(b.positions);
+    put(b.normals);
+    put(b.uvs);
+    put(b.triangleMaterials);
+    put(b.materials);
+    put(b.flags);
+    put(b.padding);
+}
+
+#elif defined(MATERIAL_BLOCK)
+
+#define Block MaterialBlock
+void echo(MaterialBlock b)
+{
+    put(b.albedo);
+    put(b.alphaCutoff);
+    put(b.alpha);
+    put(b.roughness);
+    put(b.metallic);
+    put(b.specular);
+    put(b.albedoImage);
+    put(b.metallicRoughnessImage);
+}
+
+#elif defined(INFLUENCE_BLOCK)
+
+#define Block InfluenceBlock
+void echo(InfluenceBlock b)
+{
+    put(b.joints01);
+    put(b.joints23);
+    put(b.weights);
+}
+
+#elif defined(MORPH_BLOCK)
+
+#define Block MorphBlock
+void echo(MorphBlock b)
+{
+    put(b.firstVertex);
+    put(b.count);
+    put(b.positions);
+    put(b.normals);
+}
+
+#elif defined(BONE_BLOCK)
+
+#define Block BoneBlock
+void echo(BoneBlock b)
+{
+    put(b.a);
+    put(b.firstVertex);
+    put(b.b);
+    put(b.vertexCount);
+    put(b.joint);
+}
+
+#elif defined(CAPSULE_BLOCK)
+
+#define Block CapsuleBlock
+void echo(CapsuleBlock b)
+{
+    put(b.a);
+    put(b.radius);
+    put(b.b);
+    put(b.reach);
+}
+
+#elif defined(SPHERE_BLOCK)
+
+#define Block SphereBlock
+void echo(SphereBlock b)
+{
+    put(b.centre);
+    put(b.radius);
+}
+
+#elif defined(BLOCKER_BLOCK)
+
+#define Block BlockerBlock
+void echo(BlockerBlock b)
+{
+    put(b.centre);
+    put(b.radius);
+    put(b.firstCapsule);
+    put(b.capsuleCount);
+}
+
+#elif defined(BLOCKER_SOURCE)
+
+#define Block BlockerSource
+void echo(BlockerSource b)
+{
+    put(b.worldFromLocal);
+    put(b.sphere);
+    put(b.capsules);
+    put(b.firstCapsule);
+    put(b.capsuleCount);
+    put(b.scale);
+    put(b.padding);
+}
+
+#elif defined(OCCLUSION_TRACE)
+
+#define Block OcclusionTrace
+void echo(OcclusionTrace b)
+{
+    put(b.scene);
+    put(b.samples);
+    put(b.masks);
+    put(b.counters);
+    put(b.frame);
+    put(b.evenSamples);
+    put(b.blockers);
+    put(b.capsules);
+    put(b.depth);
+    put(b.normals);
+    put(b.occluded);
+    put(b.sampleCount);
+    put(b.blockerCount);
+    put(b.tolerance);
+    put(b.pixelScale);
+    put(b.frameIndex);
+}
+
+#elif defined(COUNTER_BLOCK)
+
+#define Block CounterBlock
+void echo(CounterBlock b)
+{
+    put(b.raysConsidered);
+    put(b.raysTraced);
+    put(b.cones);
+    put(b.clampedPixels);
+    put(b.nanPixels);
+    put(b.infPixels);
+    put(b.negativePixels);
+    put(b.fallbackPixels);
+}
+
+#elif defined(CONE_CASE)
+
+#define Block ConeCase
+void echo(ConeCase b)
+{
+    put(b.position);
+    put(b.normal);
+    put(b.firstSphere);
+    put(b.sphereCount);
+    put(b.firstProbe);
+    put(b.probeCount);
+}
+
+#elif defined(CONE_BLOCK)
+
+#define Block ConeBlock
+void echo(ConeBlock b)
+{
+    put(b.axis);
+    put(b.chord);
+    put(b.halfAngle);
+    put(b.height);
+    put(b.mergedHeight);
+    put(b.kind);
+    put(b.keeper);
+}
+
+#elif defined(PROBE_BLOCK)
+
+#define Block ProbeBlock
+void echo(ProbeBlock b)
+{
+    put(b.direction);
+    put(b.isTraced);
+    put(b.far);
+}
+
+#elif defined(IRRADIANCE_CASE)
+
+#define Block IrradianceCase
+void echo(IrradianceCase b)
+{
+    put(b.position);
+    put(b.normal);
+    put(b.centre);
+    put(b.radius);
+    for (int i = 0; i < b.radianceSh.length(); ++i)
+        put(b.radianceSh[i]);
+}
+
+#endif
+
+layout(buffer_reference, scalar) readonly buffer Blocks { Block block[]; };
+
+void main() { echo(Blocks(pc.inputs).block[1]); }

@@ -1,0 +1,154 @@
+// Each struct of shaders/shared has the same layout in C++ and in GLSL: the device echoes, member by member, what the host wrote.
+#include "gpu/device_fixture.h"
+#include "gpu/kernel.h"
+#include "render/shader_structs.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace antumbra {
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+// The words of members in the order given, whatever lies between them.
+template <class... Members>
+Words wordsOf(const Members&... members)
+{
+    Words words;
+    const auto append = [&words](const auto& member) {
+        static_assert(sizeof(member) % 4 == 0);
+        const size_t end = words.size();
+        words.resize(end + sizeof(member) / 4);
+        std::memcpy(&words[end], &member, sizeof(member));
+    };
+    (append(members), ...);
+    return words;
+}
+
+class SharedStructs : public DeviceTest
+{
+protected:
+    // `members` lists a struct's words by name; the kernel's define lists them by name in GLSL.
+    template <class Block, class Members>
+    void expectSameLayout(std::string_view define, Members members)
+    {
+        static_assert(sizeof(Block) % 4 == 0);
+        constexpr size_t kWords = sizeof(Block) / 4;
+        std::array<uint32_t, 2 * kWords> distinct{};
+        for (size_t i = 0; i < distinct.size(); ++i)
+            distinct[i] = std::bit_cast<uint32_t>(1.0f) + static_cast<uint32_t>(i); // as float no NaN and not denormal either
+        std::array<Block, 2> blocks;
+        std::memcpy(blocks.data(), distinct.data(), sizeof(blocks));
+
+        const Words expected = members(blocks[1]);
+        const auto echoed = runKernel<std::array<uint32_t, kWords>>(device(), "shared_structs.comp", define, std::vector{blocks});
+        EXPECT_EQ(Words(echoed[0].begin(), echoed[0].begin() + static_cast<ptrdiff_t>(expected.size())), expected);
+    }
+};
+
+TEST_F(SharedStructs, FrameBlock)
+{
+    expectSameLayout<shader::FrameBlock>("FRAME_BLOCK", [](const auto& b) {
+        return wordsOf(b.clipFromWorld, b.worldFromClip, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentRotation,
+                       b.environmentIntensity, b.exposure, b.shBands, b.radianceSh, b.irradianceSh);
+    });
+}
+
+TEST_F(SharedStructs, InstanceBlock)
+{
+    expectSameLayout<shader::InstanceBlock>("INSTANCE_BLOCK", [](const auto& b) {
+        return wordsOf(b.worldFromLocal, b.normalFromLocal, b.positions, b.normals, b.uvs, b.triangleMaterials, b.materials, b.flags,
+                       b.padding);
+    });
+}
+
+TEST_F(SharedStructs, MaterialBlock)
+{
+    expectSameLayout<shader::MaterialBlock>("MATERIAL_BLOCK", [](const auto& b) {
+        return wordsOf(b.albedo, b.alphaCutoff, b.alpha, b.roughness, b.metallic, b.specular, b.albedoImage, b.metallicRoughnessImage);
+    });
+}
+
+TEST_F(SharedStructs, InfluenceBlock)
+{
+    expectSameLayout<shader::InfluenceBlock>("INFLUENCE_BLOCK", [](const auto& b) { return wordsOf(b.joints01, b.joints23, b.weights); });
+}
+
+TEST_F(SharedStructs, MorphBlock)
+{
+    expectSameLayout<shader::MorphBlock>("MORPH_BLOCK",
+                                         [](const auto& b) { return wordsOf(b.firstVertex, b.count, b.positions, b.normals); });
+}
+
+TEST_F(SharedStructs, BoneBlock)
+{
+    expectSameLayout<shader::BoneBlock>("BONE_BLOCK",
+                                        [](const auto& b) { return wordsOf(b.a, b.firstVertex, b.b, b.vertexCount, b.joint); });
+}
+
+TEST_F(SharedStructs, CapsuleBlock)
+{
+    expectSameLayout<shader::CapsuleBlock>("CAPSULE_BLOCK", [](const auto& b) { return wordsOf(b.a, b.radius, b.b, b.reach); });
+}
+
+TEST_F(SharedStructs, SphereBlock)
+{
+    expectSameLayout<shader::SphereBlock>("SPHERE_BLOCK", [](const auto& b) { return wordsOf(b.centre, b.radius); });
+}
+
+TEST_F(SharedStructs, BlockerBlock)
+{
+    expectSameLayout<shader::BlockerBlock>("BLOCKER_BLOCK",
+                                           [](const auto& b) { return wordsOf(b.centre, b.radius, b.firstCapsule, b.capsuleCount); });
+}
+
+TEST_F(SharedStructs, BlockerSource)
+{
+    expectSameLayout<shader::BlockerSource>("BLOCKER_SOURCE", [](const auto& b) {
+        return wordsOf(b.worldFromLocal, b.sphere, b.capsules, b.firstCapsule, b.capsuleCount, b.scale, b.padding);
+    });
+}
+
+TEST_F(SharedStructs, OcclusionTrace)
+{
+    expectSameLayout<shader::OcclusionTrace>("OCCLUSION_TRACE", [](const auto& b) {
+        return wordsOf(b.scene, b.samples, b.masks, b.counters, b.frame, b.evenSamples, b.blockers, b.capsules, b.depth, b.normals,
+                       b.occluded, b.sampleCount, b.blockerCount, b.tolerance, b.pixelScale, b.frameIndex);
+    });
+}
+
+TEST_F(SharedStructs, CounterBlock)
+{
+    expectSameLayout<shader::CounterBlock>("COUNTER_BLOCK", [](const auto& b) {
+        return wordsOf(b.raysConsidered, b.raysTraced, b.cones, b.clampedPixels, b.nanPixels, b.infPixels, b.negativePixels,
+                       b.fallbackPixels);
+    });
+}
+
+TEST_F(SharedStructs, ConeCase)
+{
+    expectSameLayout<shader::ConeCase>(
+        "CONE_CASE", [](const auto& b) { return wordsOf(b.position, b.normal, b.firstSphere, b.sphereCount, b.firstProbe, b.probeCount); });
+}
+
+TEST_F(SharedStructs, ConeBlock)
+{
+    expectSameLayout<shader::ConeBlock>(
+        "CONE_BLOCK", [](const auto& b) { return wordsOf(b.axis, b.chord, b.halfAngle, b.height, b.mergedHeight, b.kind, b.keeper); });
+}
+
+TEST_F(SharedStructs, ProbeBlock)
+{
+    expectSameLayout<shader::ProbeBlock>("PROBE_BLOCK", [](const auto& b) { return wordsOf(b.direction, b.isTraced, b.far); });
+}
+
+TEST_F(SharedStructs, IrradianceCase)
+{
+    expectSameLayout<shader::IrradianceCase>("IRRADIANCE_CASE",
+                                             [](const auto& b) { return wordsOf(b.position, b.normal, b.centre, b.radius, b.radianceSh); });
+}
+
+} // namespace
+} // namespace antumbra

@@ -1,0 +1,116 @@
+// Off means off: what a scene does not call for takes no pass and no memory.
+#include "truth/shown.h"
+
+#include <gmock/gmock.h>
+
+namespace antumbra::truth {
+namespace {
+
+using scene::MeshKind;
+using testing::Contains;
+using testing::IsSupersetOf;
+using testing::Not;
+
+const std::vector<std::string> kPassesOfMotion{"skinning", "triangle builds", "scene build", "bounds", "occlusion trace", "occlusion filter",
+                                               "occlusion upsample"};
+
+class AbsenceTest : public DeviceTest
+{
+};
+
+/// The scene with all of it at rest.
+scene::SceneFile atRest(scene::SceneFile scene)
+{
+    for (scene::SceneEntity& entity : scene.entities) {
+        entity.isDynamicSkinned = false;
+        entity.animation.reset();
+    }
+    return scene;
+}
+
+std::vector<std::string> stepsOf(Shown& shown)
+{
+    std::vector<std::string> names;
+    for (const graph::Step& step : shown.renderer().plan().steps)
+        names.emplace_back(shown.renderer().frameGraph().passes()[step.pass].name);
+    return names;
+}
+
+TEST_F(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
+{
+    Shown still(device(), atRest(namedScene("plaza")));
+    still.set("occlusion.filter", "5");
+    still.set("occlusion.scale", "1/2");
+    still.draw();
+    std::vector<std::string> absent;
+    for (const graph::AbsentPass& pass : still.renderer().report().absent) {
+        absent.emplace_back(pass.name);
+        if (std::ranges::find(kPassesOfMotion, absent.back()) != kPassesOfMotion.end()) {
+            EXPECT_EQ(pass.reason, "no DynamicSkinned in the scene");
+        }
+    }
+    EXPECT_THAT(absent, IsSupersetOf(kPassesOfMotion));
+    for (const std::string& pass : kPassesOfMotion)
+        EXPECT_THAT(stepsOf(still), Not(Contains(pass)));
+
+    Shown moving(device(), namedScene("plaza"));
+    moving.set("occlusion.filter", "5");
+    moving.set("occlusion.scale", "1/2");
+    moving.draw();
+    EXPECT_THAT(stepsOf(moving), IsSupersetOf(kPassesOfMotion)) << "the same scene in motion has them all";
+}
+
+/// Device bytes that the scene takes once it runs steadily, whatever stood on the device before.
+uint64_t bytesOf(gpu::Device& device, const scene::SceneFile& scene, const char* samples)
+{
+    for (uint32_t frame = 0; frame < 2 * gpu::kFramesInFlight; ++frame) { // what was retired before is freed
+        device.beginFrame();
+        device.endFrame(VK_NULL_HANDLE, VK_NULL_HANDLE);
+    }
+    const uint64_t before = device.memory().stats().usedBytes;
+    Shown shown(device, scene);
+    shown.set("occlusion.samples", samples);
+    shown.set("occlusion.culling", "bones");
+    shown.draw(8);
+    return shown.renderer().memory().used - before;
+}
+
+TEST_F(AbsenceTest, WithoutDynamicSkinnedOcclusionTakesNoMemory)
+{
+    const scene::SceneFile plaza = namedScene("plaza");
+    bytesOf(device(), plaza, "1024"); // grows the device's own stores to what any of these needs
+    const uint64_t still = bytesOf(device(), atRest(plaza), "64");
+    EXPECT_EQ(bytesOf(device(), atRest(plaza), "1024"), still) << "samples and masks are made for nobody";
+    EXPECT_GT(bytesOf(device(), plaza, "64"), still + (uint64_t{1} << 17)) << "masks alone are more";
+
+    scene::SceneFile empty = emptyScene();
+    empty.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, vec3(4))};
+    scene::SceneFile sphere = empty;
+    sphere.entities.push_back(movingShape(MeshKind::Sphere, {0, 0.5f, 0}, vec3(1)));
+    EXPECT_GT(bytesOf(device(), sphere, "64"), bytesOf(device(), empty, "64"));
+}
+
+TEST_F(AbsenceTest, WhatLeavesTheSceneTakesItsPassesAlong)
+{
+    Shown shown(device(), namedScene("plaza"));
+    shown.draw(4);
+    EXPECT_THAT(stepsOf(shown), Contains("occlusion trace"));
+    shown.view().characters.clear();
+    shown.draw(4);
+    for (const std::string& pass : kPassesOfMotion)
+        EXPECT_THAT(stepsOf(shown), Not(Contains(pass)));
+}
+
+TEST_F(AbsenceTest, APoseThatDidNotChangeIsNotBuiltAgain)
+{
+    Shown shown(device(), namedScene("plaza"));
+    shown.draw(2);
+    EXPECT_THAT(stepsOf(shown), Not(Contains("triangle builds")));
+    EXPECT_THAT(stepsOf(shown), Not(Contains("skinning")));
+    shown.advance(0.1f);
+    shown.draw();
+    EXPECT_THAT(stepsOf(shown), Contains("triangle builds"));
+}
+
+} // namespace
+} // namespace antumbra::truth

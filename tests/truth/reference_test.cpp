@@ -1,0 +1,105 @@
+// The reference against itself and against a closed form; the occlusion pass against the reference.
+#include "truth/shown.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace antumbra::truth {
+namespace {
+
+using render::Aov;
+
+class ReferenceTest : public DeviceTest
+{
+};
+
+scene::SceneFile sphereOnPlane()
+{
+    scene::SceneFile scene = emptyScene();
+    scene.entities = {staticShape(scene::MeshKind::Plane, {0, 0, 0}, {6, 1, 6}),
+                      movingShape(scene::MeshKind::Sphere, {0, 0.5f, 0}, {1, 1, 1})};
+    return scene;
+}
+
+/// What the next `samples` have to say that the first `samples` have not.
+scene::ImageF secondHalf(const scene::ImageF& first, const scene::ImageF& both)
+{
+    scene::ImageF second = both;
+    for (size_t i = 0; i < both.values.size(); ++i)
+        second.values[i] = 2 * both.values[i] - first.values[i];
+    return second;
+}
+
+TEST_F(ReferenceTest, DisjointHalvesAgreeTheBetterTheLongerTheyAre)
+{
+    for (const char* name : {"plaza", "hall"}) {
+        SCOPED_TRACE(name);
+        Shown shown(device(), namedScene(name));
+        const std::vector<size_t> surface = surfaceOf(shown.capture(Aov::Depth));
+        const double light = meanOf(shown.capture(Aov::Unshadowed), surface);
+        const scene::ImageF first64 = shown.reference(64), first128 = shown.reference(128);
+        const scene::ImageF first512 = shown.reference(512), first1024 = shown.reference(1024);
+        const double few = rmse(first64, secondHalf(first64, first128), surface);
+        const double many = rmse(first512, secondHalf(first512, first1024), surface);
+        EXPECT_GT(few, 0) << "the halves are the same samples";
+        EXPECT_LT(many, 0.5 * few);
+        EXPECT_LT(many / light, 0.01);
+    }
+}
+
+TEST_F(ReferenceTest, StartsAnewWhenTheViewChanges)
+{
+    Shown shown(device(), namedScene("plaza"));
+    const scene::ImageF before = shown.reference(128);
+    shown.view().environment.rotationRadians += 1;
+    const scene::ImageF turned = shown.reference(128);
+    shown.view().environment.rotationRadians -= 1;
+    EXPECT_NE(turned.values, before.values);
+    EXPECT_EQ(shown.reference(128).values, before.values);
+}
+
+TEST_F(ReferenceTest, TheErrorOfThePassFallsWithItsSamples)
+{
+    Shown shown(device(), namedScene("plaza"));
+    const std::vector<size_t> surface = surfaceOf(shown.capture(Aov::Depth));
+    const scene::ImageF truth = shown.reference(2048);
+    const auto errorWith = [&](const char* samples) {
+        shown.set("occlusion.samples", samples);
+        return rmse(shown.capture(Aov::Occluded), truth, surface);
+    };
+    const double with32 = errorWith("32"), with128 = errorWith("128"), with512 = errorWith("512");
+    EXPECT_LT(with128, 0.6 * with32);
+    EXPECT_LT(with512, 0.6 * with128);
+    EXPECT_LT(with512 / meanOf(shown.capture(Aov::Unshadowed), surface), 0.01);
+}
+
+/// A sphere wholly above the horizon hides (r/d)^2 cos(theta) of uniform light: its form factor. One that rests on the plane is.
+TEST_F(ReferenceTest, ASphereOnAPlaneHidesItsFormFactor)
+{
+    Shown shown(device(), sphereOnPlane());
+    const scene::ImageF depth = shown.capture(Aov::Depth);
+    const scene::ImageF truth = shown.reference(2048);
+    shown.set("occlusion.samples", "1024");
+    shown.set("occlusion.culling", "bones");
+    const scene::ImageF occluded = shown.capture(Aov::Occluded);
+    size_t count = 0;
+    double greatest = 0;
+    for (const size_t pixel : surfaceOf(depth)) {
+        const vec3 position =
+            positionAt(shown.view().camera, Shown::kExtent, {pixel % Shown::kExtent.x, pixel / Shown::kExtent.x}, depth.values[pixel]);
+        if (std::abs(position.y) > 1e-3f)
+            continue; // the sphere itself
+        const double distance = glm::distance(position, vec3(0, 0.5f, 0));
+        const double expected = std::numbers::pi * 0.25 * 0.5 / std::pow(distance, 3);
+        const vec3 positionOfPixel = position;
+        EXPECT_NEAR(pixelOf(truth, pixel).y, expected, 0.005 * std::numbers::pi) << positionOfPixel.x << ' ' << positionOfPixel.z;
+        EXPECT_NEAR(pixelOf(occluded, pixel).y, expected, 0.01 * std::numbers::pi);
+        greatest = std::max(greatest, expected);
+        ++count;
+    }
+    EXPECT_GT(count, 1000u);
+    EXPECT_GT(greatest, 0.5 * std::numbers::pi) << "the contact is not in view";
+}
+
+} // namespace
+} // namespace antumbra::truth

@@ -1,0 +1,129 @@
+#include "truth/shown.h"
+
+#include <cmath>
+
+namespace antumbra::truth {
+
+Shown::Shown(gpu::Device& device, const scene::SceneFile& scene, uvec2 extent, float seconds)
+    : stage_(scene, 0, app::noGameplay), renderer_(device, stage_.assets(), extent)
+{
+    view_.knobs.occlusion = {
+        .culling = render::Culling::Length, .samples = 128, .scale = render::Scale::Full, .filter = 0, .tolerance = 0, .builds = 1000};
+    advance(seconds);
+}
+
+void Shown::advance(float seconds)
+{
+    stage_.advanceClips(seconds);
+    stage_.extract(view_);
+}
+
+void Shown::draw(uint32_t frames)
+{
+    for (uint32_t frame = 0; frame < frames; ++frame)
+        renderer_.render(view_);
+}
+
+scene::ImageF Shown::capture(render::Aov aov)
+{
+    renderer_.capture(std::span(&aov, 1));
+    draw();
+    return renderer_.captured(aov);
+}
+
+scene::ImageF Shown::reference(uint32_t samples)
+{
+    const render::ReferenceKnobs before = view_.knobs.reference;
+    view_.knobs.reference.samples = samples;
+    do
+        draw();
+    while (renderer_.referenceSamples() < samples);
+    scene::ImageF mean = capture(render::Aov::Occluded);
+    view_.knobs.reference = before;
+    return mean;
+}
+
+shader::CounterBlock Shown::counters()
+{
+    draw(1 + gpu::kFramesInFlight); // reported once the device is done
+    return renderer_.report().counters;
+}
+
+vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, float depthView)
+{
+    const vec2 size(extent);
+    const vec2 share = (vec2(pixel) + 0.5f) / size * 2.0f - 1.0f;
+    const float tangent = std::tan(0.5f * camera.verticalFovRadians);
+    const vec3 ray(share.x * tangent * size.x / size.y, -share.y * tangent, -1);
+    return camera.eye + camera.rotation * (ray * depthView);
+}
+
+std::vector<size_t> surfaceOf(const scene::ImageF& depth)
+{
+    std::vector<size_t> pixels;
+    for (size_t pixel = 0; pixel < depth.values.size(); ++pixel)
+        if (depth.values[pixel] > 0)
+            pixels.push_back(pixel);
+    return pixels;
+}
+
+vec3 pixelOf(const scene::ImageF& image, size_t pixel)
+{
+    const float* rgb = &image.values[3 * pixel];
+    return {rgb[0], rgb[1], rgb[2]};
+}
+
+double meanOf(const scene::ImageF& image, const std::vector<size_t>& pixels)
+{
+    double sum = 0;
+    for (const size_t pixel : pixels)
+        sum += glm::dot(pixelOf(image, pixel), vec3(1.0f / 3));
+    return sum / static_cast<double>(pixels.size());
+}
+
+double rmse(const scene::ImageF& a, const scene::ImageF& b, const std::vector<size_t>& pixels)
+{
+    double squares = 0;
+    for (const size_t pixel : pixels) {
+        const vec3 difference = pixelOf(a, pixel) - pixelOf(b, pixel);
+        squares += double{glm::dot(difference, difference)};
+    }
+    return std::sqrt(squares / static_cast<double>(3 * pixels.size()));
+}
+
+scene::SceneFile namedScene(const std::string& name, const scene::Settings& overrides) { return app::findScene(name, overrides); }
+
+scene::SceneFile emptyScene()
+{
+    scene::SceneFile scene;
+    scene.camera = {.position = {0, 3, 4}, .target = {0, 0.3f, 0}, .verticalFovRadians = glm::radians(40.0f)};
+    scene.environment = scene::SceneEnvironment{};
+    return scene;
+}
+
+scene::SceneEntity staticShape(scene::MeshKind kind, vec3 position, vec3 scale)
+{
+    scene::SceneEntity shape{.mesh = {kind, {}}, .isStaticPRT = true};
+    shape.transform.position = position;
+    shape.transform.scale = scale;
+    return shape;
+}
+
+scene::SceneEntity movingShape(scene::MeshKind kind, vec3 position, vec3 scale)
+{
+    scene::SceneEntity shape = staticShape(kind, position, scale);
+    shape.isStaticPRT = false;
+    shape.isDynamicSkinned = true;
+    return shape;
+}
+
+scene::SceneEntity walker(vec3 position, const std::string& clip)
+{
+    scene::SceneEntity character{.mesh = {scene::MeshKind::File, projectPath("assets") / "characters/walker.glb"}};
+    character.transform.position = position;
+    character.animation = scene::SceneAnimation{.clip = clip};
+    character.isDynamicSkinned = true;
+    return character;
+}
+
+} // namespace antumbra::truth

@@ -1,0 +1,56 @@
+// What truth tests share: a scene before the renderer, its pictures as numbers, and scenes of a few shapes.
+#pragma once
+
+#include "app/stage.h"
+#include "gpu/device_fixture.h"
+#include "render/renderer.h"
+
+#include <functional>
+
+namespace antumbra::truth {
+
+/// A scene, a renderer and the knobs it is drawn with: at first full resolution, 128 samples, no filter, no tolerance, every pose built at once.
+class Shown
+{
+public:
+    static constexpr uvec2 kExtent{96, 54};
+
+    Shown(gpu::Device& device, const scene::SceneFile& scene, uvec2 extent = kExtent, float seconds = 0);
+
+    void set(std::string_view key, std::string_view value) { render::set(view_.knobs, key, value); }
+    void advance(float seconds);
+    render::FrameView& view() { return view_; }
+    render::Renderer& renderer() { return renderer_; }
+
+    void draw(uint32_t frames = 1);
+    /// Of a frame that is drawn for it.
+    scene::ImageF capture(render::Aov aov);
+    /// The occluded irradiance of the reference, accumulated further where the view has not changed.
+    scene::ImageF reference(uint32_t samples);
+    shader::CounterBlock counters();
+
+private:
+    app::Stage stage_;
+    render::Renderer renderer_;
+    render::FrameView view_;
+};
+
+/// Where the surface of a pixel is; view depth in metres, as Aov::Depth has it.
+vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, float depthView);
+
+/// Of the surface, where `depth` is positive: pixels that `holds` is true of.
+std::vector<size_t> surfaceOf(const scene::ImageF& depth);
+vec3 pixelOf(const scene::ImageF& image, size_t pixel);
+double meanOf(const scene::ImageF& image, const std::vector<size_t>& pixels);
+/// Between two pictures, over all channels.
+double rmse(const scene::ImageF& a, const scene::ImageF& b, const std::vector<size_t>& pixels);
+
+scene::SceneFile namedScene(const std::string& name, const scene::Settings& overrides = {});
+
+/// A camera that looks down at the origin, under uniform light of 1 W/(m^2 sr).
+scene::SceneFile emptyScene();
+scene::SceneEntity staticShape(scene::MeshKind kind, vec3 position, vec3 scale);
+scene::SceneEntity movingShape(scene::MeshKind kind, vec3 position, vec3 scale);
+scene::SceneEntity walker(vec3 position, const std::string& clip);
+
+} // namespace antumbra::truth

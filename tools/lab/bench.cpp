@@ -1,0 +1,183 @@
+#include "tools/lab/bench.h"
+
+#include "app/playback.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace antumbra::lab {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr float kStirSeconds = 1e-3f; // to and fro: every frame has another pose, and none is far from the point's time
+
+// The first frame after a change of knobs makes buffers, and a frame is reported when the device is done with it.
+constexpr uint32_t kFramesToSettle = 1 + gpu::kFramesInFlight;
+
+struct Counter
+{
+    std::string_view name;
+    shader::uint shader::CounterBlock::* value;
+};
+
+constexpr std::array kCounters{Counter{"rays_considered", &shader::CounterBlock::raysConsidered},
+                               Counter{"rays_traced", &shader::CounterBlock::raysTraced},
+                               Counter{"cones", &shader::CounterBlock::cones},
+                               Counter{"clamped_pixels", &shader::CounterBlock::clampedPixels},
+                               Counter{"nan_pixels", &shader::CounterBlock::nanPixels},
+                               Counter{"inf_pixels", &shader::CounterBlock::infPixels},
+                               Counter{"negative_pixels", &shader::CounterBlock::negativePixels}};
+
+Series& named(std::vector<Series>& series, std::string_view name)
+{
+    const auto found = std::ranges::find(series, name, &Series::name);
+    return found != series.end() ? *found : series.emplace_back(Series{std::string(name), {}});
+}
+
+void push(std::vector<Series>& series, std::string_view name, std::optional<double> value)
+{
+    Series& target = named(series, name);
+    if (value)
+        target.values.push_back(*value);
+}
+
+void appendAll(std::vector<Series>& to, const std::vector<Series>& from)
+{
+    for (const Series& series : from) {
+        std::vector<double>& values = named(to, series.name).values;
+        values.insert(values.end(), series.values.begin(), series.values.end());
+    }
+}
+
+std::string crowdOf(const app::SweepPoint& point)
+{
+    std::string count;
+    for (const auto& [key, value] : point.settings)
+        if (key == "crowd.count")
+            count = value;
+    return count;
+}
+
+} // namespace
+
+void Samples::append(const Samples& more)
+{
+    appendAll(times, more.times);
+    appendAll(counters, more.counters);
+}
+
+Bench::Bench(gpu::Device& device, const app::SweepPoint& point)
+    : point_(point), deviceClass_(app::deviceClassOf(device.info())),
+      stage_(app::findScene(point.scene, point.settings), 0, app::noGameplay), renderer_(device, stage_.assets(), point.size)
+{
+    advance(point.seconds);
+}
+
+bool Bench::fits(const app::SweepPoint& point) const
+{
+    return point.scene == point_.scene && point.size == point_.size && point.seconds == point_.seconds && crowdOf(point) == crowdOf(point_);
+}
+
+render::Knobs Bench::resolve(const app::SweepPoint& point) const
+{
+    return render::resolveKnobs(deviceClass_, stage_.settings(), point.settings);
+}
+
+render::Settings Bench::knobsOf(const app::SweepPoint& point) const
+{
+    const render::Knobs knobs = resolve(point);
+    render::Settings values;
+    for (const render::KnobDescription& knob : render::knobTable())
+        values.emplace_back(knob.key, render::get(knobs, knob.key));
+    return values;
+}
+
+void Bench::advance(float seconds)
+{
+    stage_.advanceClips(seconds);
+    stage_.extract(view_);
+}
+
+double Bench::draw()
+{
+    const Clock::time_point start = Clock::now();
+    renderer_.render(view_);
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double Bench::warmUp(const app::SweepPoint& point, uint32_t frames)
+{
+    view_.knobs = resolve(point);
+    const size_t builds = (view_.characters.size() + view_.knobs.occlusion.builds - 1) / view_.knobs.occlusion.builds;
+    double milliseconds = 0;
+    for (size_t frame = 0; frame < builds + frames; ++frame)
+        milliseconds = draw();
+    return milliseconds;
+}
+
+bool Bench::accumulate(uint32_t samples, const app::InterruptGuard& interrupt, const std::function<void(uint32_t)>& tell)
+{
+    view_.knobs = resolve(point_);
+    view_.knobs.reference.samples = samples;
+    const bool hasCharacters = !view_.characters.empty(); // without them the first term is the truth
+    while (hasCharacters && renderer_.referenceSamples() < samples) {
+        if (interrupt.isInterrupted())
+            return false;
+        draw();
+        tell(renderer_.referenceSamples());
+    }
+    constexpr std::array aovs{render::Aov::Irradiance, render::Aov::Unshadowed, render::Aov::Depth};
+    renderer_.capture(aovs);
+    draw();
+    truth_ = {.irradiance = renderer_.captured(render::Aov::Irradiance),
+              .unshadowed = renderer_.captured(render::Aov::Unshadowed),
+              .depth = renderer_.captured(render::Aov::Depth)};
+    return true;
+}
+
+app::ImageError Bench::errorOf(const app::SweepPoint& point)
+{
+    view_.knobs = resolve(point);
+    constexpr std::array aovs{render::Aov::Irradiance};
+    renderer_.capture(aovs);
+    draw();
+    return app::errorOf(renderer_.captured(render::Aov::Irradiance), truth_);
+}
+
+void Bench::addFrame(Samples& samples, double milliseconds) const
+{
+    const render::FrameReport report = renderer_.report();
+    push(samples.times, "frame", milliseconds);
+    push(samples.times, "device frame", report.frameMilliseconds);
+    for (const graph::PassTime& pass : report.passes)
+        push(samples.times, pass.name, pass.milliseconds);
+    for (const Counter& counter : kCounters)
+        push(samples.counters, counter.name, report.counters.*counter.value);
+}
+
+uint32_t Bench::framesOf(const app::SweepPoint& point) { return kFramesToSettle + point.frames; }
+
+std::optional<Samples> Bench::measure(const app::SweepPoint& point, const app::InterruptGuard& interrupt)
+{
+    view_.knobs = resolve(point);
+    Samples samples;
+    float away = 0; // from the point's time
+    for (uint32_t frame = 0; frame < framesOf(point) && !interrupt.isInterrupted(); ++frame) {
+        if (point.animates) {
+            const float stir = away > 0 ? -kStirSeconds : kStirSeconds;
+            advance(stir);
+            away += stir;
+        }
+        const double milliseconds = draw();
+        if (frame >= kFramesToSettle)
+            addFrame(samples, milliseconds);
+    }
+    if (away != 0)
+        advance(-away);
+    return interrupt.isInterrupted() ? std::nullopt : std::optional(samples);
+}
+
+} // namespace antumbra::lab

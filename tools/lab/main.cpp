@@ -1,0 +1,55 @@
+// lab SWEEP.json --output DIR [--resume]: the command line of the lab (DESIGN.md, Commands).
+#include "base/error.h"
+#include "base/log.h"
+#include "tools/lab/lab.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace {
+
+using namespace antumbra;
+
+struct Options
+{
+    Path sweep;
+    Path output;
+    bool resumes = false;
+};
+
+/// Nothing where help was asked for and given.
+std::optional<Options> parse(int argc, char** argv)
+{
+    Options options;
+    CLI::App arguments("Measures the points of a sweep: times, counters, and the error against the reference.", "lab");
+    arguments.add_option("SWEEP", options.sweep, "file that lists the points, as in tools/sweeps")->required();
+    arguments.add_option("--output", options.output, "folder for the results, NAME.json and NAME.csv")->required();
+    arguments.add_flag("--resume", options.resumes, "go on from the results that are there");
+    try {
+        arguments.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        fmt::print("{}", arguments.help());
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw Error(error.what(), "lab");
+    }
+    return options;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        const std::optional<Options> options = parse(argc, argv);
+        if (!options)
+            return static_cast<int>(ExitCode::Done);
+        lab::Lab lab(app::loadSweep(options->sweep), options->output, options->resumes);
+        return static_cast<int>(lab.run() ? ExitCode::Done : ExitCode::CheckFailed);
+    } catch (const Error& error) {
+        logError("{}", error.what());
+        return static_cast<int>(error.code);
+    }
+}

@@ -1,0 +1,224 @@
+#include "tools/lab/results.h"
+
+#include "base/error.h"
+#include "scene/json_object.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <thread>
+
+namespace antumbra::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Figure
+{
+    const char* name;
+    double app::ImageError::* value;
+};
+
+constexpr Figure kFigures[] = {{"rmse", &app::ImageError::rmse},
+                               {"relative_rmse", &app::ImageError::relativeRmse},
+                               {"mae", &app::ImageError::mae},
+                               {"ssim", &app::ImageError::ssim},
+                               {"percentile_99", &app::ImageError::percentile99}};
+
+Json jsonOf(const std::vector<Series>& all)
+{
+    Json object = Json::object();
+    for (const Series& series : all) {
+        Json& summary = object[series.name] = {{"lower", nullptr}, {"median", nullptr}, {"upper", nullptr}, {"values", series.values}};
+        if (series.values.empty())
+            continue;
+        const app::Quartiles quartiles = app::quartilesOf(series.values);
+        summary["lower"] = quartiles.lower;
+        summary["median"] = quartiles.median;
+        summary["upper"] = quartiles.upper;
+    }
+    return object;
+}
+
+Json jsonOf(const std::optional<app::ImageError>& error)
+{
+    if (!error)
+        return nullptr;
+    Json object = Json::object();
+    for (const Figure& figure : kFigures)
+        object[figure.name] = (*error).*figure.value; // NaN is written as null
+    return object;
+}
+
+Json knobsOf(const Row& row)
+{
+    Json knobs = Json::object();
+    for (const auto& [key, value] : row.knobs)
+        knobs[key] = value;
+    return knobs;
+}
+
+/// What a row must share with one that is taken over.
+Json identityOf(const Row& row)
+{
+    const app::SweepPoint& point = row.point;
+    return {{"name", point.name},       {"scene", point.scene},      {"size", {point.size.x, point.size.y}},
+            {"time", point.seconds},    {"animate", point.animates}, {"reference", point.referenceSamples},
+            {"knobs", knobsOf(row)}};
+}
+
+Json jsonOf(const Row& row)
+{
+    Json object = identityOf(row);
+    object["rounds"] = row.rounds;
+    object["times_ms"] = jsonOf(row.samples.times);
+    object["counters"] = jsonOf(row.samples.counters);
+    object["error"] = jsonOf(row.error);
+    return object;
+}
+
+std::vector<Series> seriesOf(const Json& object)
+{
+    std::vector<Series> all;
+    for (const auto& [name, summary] : object.items())
+        all.push_back({name, summary.at("values").get<std::vector<double>>()});
+    return all;
+}
+
+void takeOver(Row& row, const Json& object)
+{
+    row.rounds = object.at("rounds").get<uint32_t>();
+    row.samples = {seriesOf(object.at("times_ms")), seriesOf(object.at("counters"))};
+    if (object.at("error").is_null())
+        return;
+    app::ImageError error;
+    for (const Figure& figure : kFigures) {
+        const Json& value = object.at("error").at(figure.name);
+        error.*figure.value = value.is_null() ? std::nan("") : value.get<double>();
+    }
+    row.error = error;
+}
+
+std::vector<std::string> namesOf(const Results& results, std::vector<Series> Samples::* part)
+{
+    std::vector<std::string> names;
+    for (const Row& row : results.rows)
+        for (const Series& series : row.samples.*part)
+            if (std::ranges::find(names, series.name) == names.end())
+                names.push_back(series.name);
+    return names;
+}
+
+std::string quoted(const std::string& text)
+{
+    std::string inside;
+    for (const char c : text)
+        inside += c == '"' ? "\"\"" : std::string(1, c);
+    return '"' + inside + '"';
+}
+
+std::optional<app::Quartiles> quartilesOf(const std::vector<Series>& all, std::string_view name)
+{
+    const auto found = std::ranges::find(all, name, &Series::name);
+    return found != all.end() && !found->values.empty() ? std::optional(app::quartilesOf(found->values)) : std::nullopt;
+}
+
+std::string headOf(const Results& results, const std::vector<std::string>& times, const std::vector<std::string>& counters)
+{
+    std::string line = "name,scene,width,height,time_s,rounds";
+    for (const auto& [key, value] : results.rows.front().knobs)
+        line += ',' + key;
+    for (const Figure& figure : kFigures)
+        line += fmt::format(",{}", figure.name);
+    for (const std::string& name : times)
+        line += fmt::format(",{0} ms lower,{0} ms median,{0} ms upper", name);
+    for (const std::string& name : counters)
+        line += fmt::format(",{0} lower,{0} median,{0} upper", name);
+    return line + '\n';
+}
+
+std::string cellsOf(const std::vector<Series>& all, const std::vector<std::string>& names)
+{
+    std::string cells;
+    for (const std::string& name : names) {
+        const std::optional<app::Quartiles> quartiles = quartilesOf(all, name);
+        cells += quartiles ? fmt::format(",{:.6g},{:.6g},{:.6g}", quartiles->lower, quartiles->median, quartiles->upper) : ",,,";
+    }
+    return cells;
+}
+
+} // namespace
+
+std::string csvOf(const Results& results)
+{
+    const std::vector<std::string> times = namesOf(results, &Samples::times), counters = namesOf(results, &Samples::counters);
+    std::string text = headOf(results, times, counters);
+    for (const Row& row : results.rows) {
+        const app::SweepPoint& point = row.point;
+        text += fmt::format("{},{},{},{},{},{}", quoted(point.name), quoted(point.scene), point.size.x, point.size.y, point.seconds, row.rounds);
+        for (const auto& [key, value] : row.knobs)
+            text += ',' + value;
+        for (const Figure& figure : kFigures)
+            text += row.error ? fmt::format(",{:.6g}", (*row.error).*figure.value) : ",";
+        text += cellsOf(row.samples.times, times) + cellsOf(row.samples.counters, counters) + '\n';
+    }
+    return text;
+}
+
+std::string jsonOf(const Results& results)
+{
+    const gpu::DeviceInfo& device = results.device;
+    Json rows = Json::array();
+    for (const Row& row : results.rows)
+        rows.push_back(jsonOf(row));
+    const Json document = {{"sweep", results.sweep},
+                           {"machine",
+                            {{"device", device.name},
+                             {"driver", device.driver},
+                             {"vulkan", device.api},
+                             {"is_cpu", device.isCpu},
+                             {"subgroup_size", device.subgroupSize},
+                             {"threads", std::thread::hardware_concurrency()}}},
+                           {"rows", rows}};
+    return document.dump(1) + '\n';
+}
+
+void resume(Results& results, const Path& file)
+{
+    try {
+        const Json document = Json::parse(readText(file));
+        const Json& machine = document.at("machine");
+        if (machine.at("device") != results.device.name || machine.at("driver") != results.device.driver)
+            throw Error("measured on another device: it cannot be resumed here", file.string());
+        for (const Json& object : document.at("rows")) {
+            const auto row = std::ranges::find(results.rows, object.at("name").get<std::string>(), [](const Row& r) { return r.point.name; });
+            const Json identity = row != results.rows.end() ? identityOf(*row) : Json::object({{"name", nullptr}});
+            for (const auto& [key, value] : identity.items())
+                if (object.at(key) != value)
+                    throw Error(fmt::format("the row {} is of another sweep: {} differs", object.at("name").dump(), key), file.string());
+            takeOver(*row, object);
+        }
+    } catch (const Json::exception& exception) {
+        throw Error(fmt::format("not results of the lab: {}", exception.what()), file.string());
+    }
+}
+
+std::string tableOf(const Results& results)
+{
+    std::string text = fmt::format("{:<52}{:>10}{:>10}{:>12}{:>8}\n", "medians, milliseconds", "frame", "trace", "rel. RMSE", "SSIM");
+    for (const Row& row : results.rows) {
+        const auto time = [&](std::string_view name) {
+            const std::optional<app::Quartiles> quartiles = quartilesOf(row.samples.times, name);
+            return quartiles ? fmt::format("{:10.2f}", quartiles->median) : fmt::format("{:>10}", "-");
+        };
+        const std::string error =
+            row.error ? fmt::format("{:11.3f}%{:8.4f}", 100 * row.error->relativeRmse, row.error->ssim) : fmt::format("{:>12}{:>8}", "-", "-");
+        text += fmt::format("{:<52}{}{}{}\n", row.point.name, time("frame"), time("occlusion trace"), error);
+    }
+    return text;
+}
+
+} // namespace antumbra::lab
