@@ -167,7 +167,7 @@ Knobs defaultKnobs(DeviceClass device)
     Knobs knobs;
     if (device == DeviceClass::Cpu) {
         knobs.occlusion.samples = 64;
-        knobs.occlusion.scale = Scale::Half;
+        knobs.occlusion.scale = Scale::Quarter;
     }
     return knobs;
 }

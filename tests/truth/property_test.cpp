@@ -1,6 +1,8 @@
 // What holds for every right shadow: bounds, monotony, symmetry, and that a wall hides what is behind it.
 #include "truth/shown.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
