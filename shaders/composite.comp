@@ -8,7 +8,8 @@
 #include "lib/compose.glsl"
 #include "lib/octahedral.glsl"
 
-// First term minus occluded irradiance, times albedo over pi; the environment where nothing is (Xu et al. 2022, eq. 2 and 3).
+// First term minus occluded irradiance, times albedo over pi (Xu et al. 2022, eq. 2 and 3). Where nothing is, sky.frag
+// draws the environment.
 // Variant EXPLAINS: the views that are not the final picture.
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -16,17 +17,6 @@ layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { Composite pc; };
 
 const float kInversePi = 0.3183098861837907;
-
-vec3 skyRadiance(vec2 pixel)
-{
-    vec3 d = normalize(frameBlock.cornerRay + pixel.x * frameBlock.rayX + pixel.y * frameBlock.rayY);
-    // The light turned by +angle about +Y is looked up at -angle.
-    float c = cos(frameBlock.environmentRotation), s = sin(frameBlock.environmentRotation);
-    d = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
-    vec2 uv = vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInversePi), acos(clamp(d.y, -1.0, 1.0)) * kInversePi);
-    return textureLod(sampler2D(sampledImages[frameBlock.environment], samplers[kLinearWrapU]), uv, 0.0).rgb *
-           frameBlock.environmentIntensity;
-}
 
 vec3 occludedAt(uint slot, ivec2 pixel) { return slot == kNoOcclusion ? vec3(0.0) : texelFetch(sampledImages[slot], pixel, 0).rgb; }
 
@@ -77,7 +67,7 @@ void main()
     if (any(greaterThanEqual(pixel, imageSize(storageImages[pc.color]))))
         return;
     if (texelFetch(sampledImages[pc.depth], pixel, 0).x == 0.0) {
-        imageStore(storageImages[pc.color], pixel, vec4(skyRadiance(vec2(pixel) + 0.5), 0.0));
+        imageStore(storageImages[pc.color], pixel, vec4(0.0));
         if (pc.hasIrradiance != 0u)
             imageStore(storageImages[pc.irradiance], pixel, vec4(0.0));
         return;

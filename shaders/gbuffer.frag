@@ -6,7 +6,7 @@
 #include "lib/octahedral.glsl"
 #include "lib/sh.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Instance { InstanceBlock block; };
+// Variant TEXTURED: some material of the model has an image or is cut out.
 layout(buffer_reference, scalar) readonly buffer Materials { MaterialBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Indices { uint value[]; };
 layout(push_constant, scalar) uniform Push { GBufferDraw pc; };
@@ -21,14 +21,14 @@ layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
 
 void main()
 {
-    Instance instance = Instance(pc.instance);
-    uint triangle = uint(gl_PrimitiveID);
-    MaterialBlock material = Materials(instance.block.materials).block[Indices(instance.block.triangleMaterials).value[triangle]];
+    MaterialBlock material = Materials(pc.materials).block[Indices(pc.triangleMaterials).value[gl_PrimitiveID]];
     vec4 base = vec4(material.albedo, material.alpha);
+#ifdef TEXTURED
     if (material.albedoImage != kNoImage)
         base *= texture(sampler2D(sampledImages[nonuniformEXT(material.albedoImage)], samplers[kLinearRepeat]), uv);
     if (base.a < material.alphaCutoff)
         discard;
+#endif
 
     vec3 toEye = frameBlock.eye - positionWorld;
     vec3 geometric = cross(dFdx(positionWorld), dFdy(positionWorld));
@@ -47,6 +47,6 @@ void main()
         irradiance += frameBlock.irradianceSh[i] * y[i];
 
     outNormals = vec4(octahedralFromUnit(geometric), octahedralFromUnit(shading));
-    outAlbedo = vec4(base.rgb, (instance.block.flags & kInstanceDynamic) != 0u ? 1.0 : 0.0);
+    outAlbedo = vec4(base.rgb, (pc.flags & kDrawDynamic) != 0u ? 1.0 : 0.0);
     outUnshadowed = vec4(irradiance, material.roughness);
 }

@@ -4,7 +4,6 @@
 #include "lib/frame.glsl"
 #include "shared/scene.h"
 
-layout(buffer_reference, scalar) readonly buffer Instance { InstanceBlock block; };
 layout(buffer_reference, scalar) readonly buffer Vectors { vec3 value[]; };
 layout(buffer_reference, scalar) readonly buffer Uvs { vec2 value[]; };
 layout(push_constant, scalar) uniform Push { GBufferDraw pc; };
@@ -15,9 +14,12 @@ layout(location = 2) out vec2 uv;
 
 void main()
 {
-    Instance instance = Instance(pc.instance);
-    positionWorld = vec3(instance.block.worldFromLocal * vec4(Vectors(instance.block.positions).value[gl_VertexIndex], 1.0));
-    normalWorld = mat3(instance.block.normalFromLocal) * Vectors(instance.block.normals).value[gl_VertexIndex];
-    uv = Uvs(instance.block.uvs).value[gl_VertexIndex];
+    vec3 position = Vectors(pc.positions).value[gl_VertexIndex], normal = Vectors(pc.normals).value[gl_VertexIndex];
+    vec3 x = pc.worldFromLocal[0].xyz, y = pc.worldFromLocal[1].xyz, z = pc.worldFromLocal[2].xyz;
+    positionWorld = vec3(dot(x, position), dot(y, position), dot(z, position)) +
+                    vec3(pc.worldFromLocal[0].w, pc.worldFromLocal[1].w, pc.worldFromLocal[2].w);
+    // The cofactor matrix, whose sign the fragment shader does not mind.
+    normalWorld = vec3(dot(cross(y, z), normal), dot(cross(z, x), normal), dot(cross(x, y), normal));
+    uv = Uvs(pc.uvs).value[gl_VertexIndex];
     gl_Position = frameBlock.clipFromWorld * vec4(positionWorld, 1.0);
 }

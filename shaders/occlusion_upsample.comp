@@ -12,9 +12,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Push { OcclusionUpsample pc; };
 
-// The four inner ones first, then the ring about them.
-const ivec2 kSteps[16] = ivec2[](ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(-1, 0), ivec2(-1, 1), ivec2(2, 0), ivec2(2, 1),
-                                 ivec2(0, -1), ivec2(1, -1), ivec2(0, 2), ivec2(1, 2), ivec2(-1, -1), ivec2(2, -1), ivec2(-1, 2), ivec2(2, 2));
+// The four inner ones first, then the ring about them: steps of -1..2, two bits each, in two words instead of an array in memory.
+ivec2 stepOf(uint k) { return ivec2(uvec2(0xcc99f099u, 0xf0f099a5u) >> 2u * k & 3u) - 1; }
+
 const float kEnough = 0.05;
 
 void main()
@@ -35,7 +35,7 @@ void main()
     float weights = 0.0, bestLikeness = -1.0;
     uint taps = depth > 0.0 ? 16u : 0u;
     for (uint k = 0u; k < taps && (k < 4u || weights < kEnough); ++k) {
-        ivec2 coarse = clamp(corner + kSteps[k], ivec2(0), last);
+        ivec2 coarse = clamp(corner + stepOf(k), ivec2(0), last);
         TracedPixel there = unpackTraced(texelFetch(sampledWordImages[pc.coarse], coarse, 0));
         float like = likeness(plane, vec2(coarse) * pc.pixelScale + middle - vec2(pixel), there);
         vec2 near = max(1.0 - abs(at - vec2(coarse)), vec2(0.0));

@@ -57,8 +57,7 @@ struct Moments
         const double meanX = x / weight, meanY = y / weight;
         const double varianceX = xx / weight - meanX * meanX, varianceY = yy / weight - meanY * meanY;
         const double covariance = xy / weight - meanX * meanY;
-        return (2 * meanX * meanY + c1) * (2 * covariance + c2) /
-               ((meanX * meanX + meanY * meanY + c1) * (varianceX + varianceY + c2));
+        return (2 * meanX * meanY + c1) * (2 * covariance + c2) / ((meanX * meanX + meanY * meanY + c1) * (varianceX + varianceY + c2));
     }
 };
 
@@ -82,7 +81,8 @@ double similarity(const std::vector<double>& x, const std::vector<double>& y, in
         for (int v = std::max(0, row - kWindowRadius); v <= std::min(height - 1, row + kWindowRadius); ++v)
             for (int u = std::max(0, column - kWindowRadius); u <= std::min(width - 1, column + kWindowRadius); ++u) {
                 const size_t there = static_cast<size_t>(v) * static_cast<size_t>(width) + static_cast<size_t>(u);
-                const double weight = weights[static_cast<size_t>(u - column + kWindowRadius)] * weights[static_cast<size_t>(v - row + kWindowRadius)];
+                const double weight =
+                    weights[static_cast<size_t>(u - column + kWindowRadius)] * weights[static_cast<size_t>(v - row + kWindowRadius)];
                 if (!std::isnan(y[there]))
                     moments.add(weight, x[there], y[there]);
             }

@@ -112,7 +112,7 @@ uint32_t Bindless::add(std::vector<uint32_t>& freed, VkWriteDescriptorSet write)
 
 uint32_t Bindless::addSampled(VkImageView view)
 {
-    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL};
     return add(freeSampled_, {.dstBinding = static_cast<uint32_t>(Binding::SampledImages),
                               .descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                               .pImageInfo = &image});

@@ -54,10 +54,10 @@ void fillMips(VkCommandBuffer commands, const Image& image)
                                .dstOffsets = {{}, levelEnd(image.info().extent, level)}};
         vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                        1, &blit, VK_FILTER_LINEAR);
-        transition(commands, image.handle(), level - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        transition(commands, image.handle(), level - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL);
     }
     transition(commands, image.handle(), image.info().mipLevels - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+               VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL);
 }
 
 } // namespace

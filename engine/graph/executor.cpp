@@ -69,7 +69,7 @@ VkImageLayout vulkanLayout(Layout layout)
     switch (layout) {
     case Layout::Undefined: return VK_IMAGE_LAYOUT_UNDEFINED;
     case Layout::General: return VK_IMAGE_LAYOUT_GENERAL;
-    case Layout::ReadOnly: return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    case Layout::ReadOnly: return VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL;
     case Layout::Attachment: return VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
     case Layout::TransferSource: return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     case Layout::TransferTarget: return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;

@@ -1,10 +1,14 @@
 #include "render/composite.h"
 
+#include <array>
+
 namespace antumbra::render {
 
 namespace {
 
 using graph::Use;
+
+constexpr gpu::Format kColorFormat = gpu::Format::Rgba16Float;
 
 uint32_t viewOf(ViewMode mode) { return static_cast<uint32_t>(mode); }
 static_assert(static_cast<uint32_t>(ViewMode::Final) == shader::kViewFinal && static_cast<uint32_t>(ViewMode::Reference) == shader::kViewReference);
@@ -12,9 +16,17 @@ static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDiffer
 
 } // namespace
 
-CompositeSystem::CompositeSystem(gpu::Device& device) : device_(&device), final_(computePipeline(device, "composite.comp")) {}
+CompositeSystem::CompositeSystem(gpu::Device& device) : device_(&device), final_(computePipeline(device, "composite.comp"))
+{
+    constexpr std::array formats{kColorFormat};
+    sky_ = rasterPipeline(device, {.vertexShader = "sky.vert",
+                                   .fragmentShader = "sky.frag",
+                                   .colorFormats = formats,
+                                   .depthFormat = gpu::Format::Depth32Float,
+                                   .writesDepth = false});
+}
 
-Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GBuffer& g,
+Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance)
 {
     const bool explains = view.knobs.view != ViewMode::Final;
@@ -31,17 +43,17 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
     if (reference)
         pass.read(reference, Use::Sampled);
     counters = pass.write(counters, Use::StorageWrite);
-    const graph::ImageDesc desc{.format = gpu::Format::Rgba16Float, .like = g.depth};
+    const graph::ImageDesc desc{.format = kColorFormat, .like = g.depth};
     Composed composed;
     composed.color = pass.create("color", desc, Use::StorageWrite);
     if (wantsIrradiance)
         composed.irradiance = pass.create("irradiance", desc, Use::StorageWrite);
 
-    pass.record([&pipeline, &view, addresses, g, occluded, reference, composed, counted = counters](graph::Recorder& recorder) {
+    pass.record([&pipeline, &view, frame, g, occluded, reference, composed, counted = counters](graph::Recorder& recorder) {
         const auto slot = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNoOcclusion; };
         recorder.dispatch(pipeline,
                           shader::Composite{.counters = recorder.address(counted),
-                                            .frame = addresses.frame,
+                                            .frame = frame,
                                             .depth = recorder.sampled(g.depth),
                                             .normals = recorder.sampled(g.normals),
                                             .albedo = recorder.sampled(g.albedo),
@@ -55,6 +67,11 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .hasIrradiance = composed.irradiance ? 1u : 0u},
                           recorder.extent(composed.color));
     });
+
+    graph::Pass sky = graph.add("sky");
+    sky.read(g.depth, Use::DepthRead);
+    composed.color = sky.write(composed.color, Use::ColorAttachment);
+    sky.record([this, frame](graph::Recorder& recorder) { recorder.draw(sky_, shader::Sky{.frame = frame}, 3); });
     return composed;
 }
 

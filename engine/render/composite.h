@@ -17,13 +17,14 @@ public:
     explicit CompositeSystem(gpu::Device& device);
 
     /// `occluded` and `reference` may be absent.
-    Composed declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GBuffer& g,
+    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                      graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance);
 
 private:
     gpu::Device* device_;
     gpu::Pipeline final_;
     gpu::Pipeline explaining_; // made when a view first asks for it
+    gpu::Pipeline sky_;
 };
 
 } // namespace antumbra::render

@@ -35,19 +35,6 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
     block.rayY = camera.rotation * vec3{0, -2.0f * top / height, 0};
 }
 
-shader::InstanceBlock instanceOf(const DeviceModel& model, const mat4& world, VkDeviceAddress positions, VkDeviceAddress normals, uint32_t flags)
-{
-    return {.worldFromLocal = world,
-            .normalFromLocal = mat4(glm::inverseTranspose(mat3(world))),
-            .positions = positions,
-            .normals = normals,
-            .uvs = model.uvs.address(),
-            .triangleMaterials = model.triangleMaterials.address(),
-            .materials = model.materials.address(),
-            .flags = flags,
-            .padding = 0};
-}
-
 } // namespace
 
 FrameBlocks::FrameBlocks(gpu::Device& device, const scene::Assets& assets) : device_(&device), assets_(&assets)
@@ -79,7 +66,7 @@ void FrameBlocks::writeEnvironment(shader::FrameBlock& block, const EnvironmentV
     block.environmentIntensity = environment.intensity;
 }
 
-FrameAddresses FrameBlocks::write(const FrameView& view, const GpuScene& scene, uvec2 extent)
+uint32_t FrameBlocks::write(const FrameView& view, const GpuScene& scene, uvec2 extent)
 {
     shader::FrameBlock block{};
     writeCamera(block, view.camera, extent);
@@ -87,24 +74,7 @@ FrameAddresses FrameBlocks::write(const FrameView& view, const GpuScene& scene, 
     block.exposure = view.exposure;
     const gpu::Buffer& frame = blocks_[device_->frameSlot()];
     std::memcpy(frame.mapped(), &block, sizeof(block));
-
-    const size_t count = view.statics.size() + view.characters.size();
-    const gpu::FrameBytes instances = device_->frameBytes(std::max<size_t>(count, 1) * sizeof(shader::InstanceBlock));
-    std::byte* target = instances.mapped;
-    const auto append = [&](const shader::InstanceBlock& instance) {
-        std::memcpy(target, &instance, sizeof(instance));
-        target += sizeof(instance);
-    };
-    for (const StaticDraw& draw : view.statics) {
-        const DeviceRest& rest = scene.rest(draw.model);
-        append(instanceOf(scene.model(draw.model), draw.world, rest.positions.address(), rest.normals.address(), 0));
-    }
-    for (const CharacterDraw& draw : view.characters) {
-        const DeviceCharacter& character = scene.character(draw.slot);
-        append(instanceOf(scene.model(draw.model), draw.world, character.positions.address(), character.normals.address(),
-                          shader::kInstanceDynamic));
-    }
-    return {frame.slot(), instances.address};
+    return frame.slot();
 }
 
 } // namespace antumbra::render

@@ -1,4 +1,4 @@
-// The frame's constants on their way to the device: camera, environment in spherical harmonics, instances.
+// The frame's constants on their way to the device: the camera, and the environment in spherical harmonics.
 #pragma once
 
 #include "bake/sh.h"
@@ -11,20 +11,13 @@
 
 namespace antumbra::render {
 
-/// Where this frame's blocks lie, for as long as the frame is recorded and run.
-struct FrameAddresses
-{
-    uint32_t frame = 0;            // slot of the FrameBlock
-    VkDeviceAddress instances = 0; // InstanceBlock[]: statics, then characters
-};
-
 class FrameBlocks
 {
 public:
     FrameBlocks(gpu::Device& device, const scene::Assets& assets);
 
-    /// Writes the blocks into the frame's store. After GpuScene::prepare.
-    FrameAddresses write(const FrameView& view, const GpuScene& scene, uvec2 extent);
+    /// Returns the slot of this frame's FrameBlock. After GpuScene::prepare.
+    uint32_t write(const FrameView& view, const GpuScene& scene, uvec2 extent);
 
 private:
     const bake::ShFunction& projected(uint32_t environment);

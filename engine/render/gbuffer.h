@@ -22,11 +22,11 @@ class GBufferSystem
 public:
     explicit GBufferSystem(gpu::Device& device);
 
-    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses, const GpuScene& scene, const Posed& posed,
+    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
                     uvec2 extent) const;
 
 private:
-    gpu::Pipeline pipeline_;
+    gpu::Pipeline plain_, textured_;
 };
 
 } // namespace antumbra::render

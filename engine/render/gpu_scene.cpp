@@ -112,6 +112,7 @@ void GpuScene::makeModel(uint32_t index)
         materials.push_back({m.albedo, m.alphaCutoff, m.alpha, m.roughness, m.metallic, m.specular, slot(m.albedoImage),
                              slot(m.metallicRoughnessImage)});
         made.isTwoSided |= m.twoSided;
+        made.isTextured |= m.albedoImage != scene::kNoIndex || m.alphaCutoff > 0.0f;
     }
     made.materials = upload(*device_, "materials", materials);
     models_[index] = std::move(made);

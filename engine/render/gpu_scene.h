@@ -20,6 +20,7 @@ struct DeviceModel
     uint32_t vertexCount = 0;
     uint32_t triangleCount = 0;
     bool isTwoSided = false; // some material is
+    bool isTextured = false; // some material has an image or is cut out
 };
 
 /// What only posed models need.

@@ -146,17 +146,17 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     scene_.prepare(view);
     nearMetres_ = view.camera.nearMetres;
     graph_.reset();
-    const FrameAddresses addresses = blocks_.write(view, scene_, extent());
+    const uint32_t frame = blocks_.write(view, scene_, extent());
     graph::BufferRef counters = counters_.declareClear(graph_);
 
     const Posed posed = posing_.declare(graph_, view, scene_);
-    const GBuffer g = gbuffer_.declare(graph_, view, addresses, scene_, posed, extent());
-    ImageRef occluded = occlusion_.declare(graph_, view, addresses, scene_, g, posed, counters);
-    const ImageRef reference = reference_.declare(graph_, view, addresses, scene_, g, posed);
+    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, posed, extent());
+    ImageRef occluded = occlusion_.declare(graph_, view, frame, scene_, g, posed, counters);
+    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, g, posed);
     if (view.knobs.reference.samples > 0 && view.knobs.view == ViewMode::Final)
         occluded = reference;
     const bool wantsIrradiance = (captures_ >> static_cast<uint32_t>(Aov::Irradiance) & 1u) != 0;
-    const Composed lit = composite_.declare(graph_, view, addresses, g, occluded, reference, counters, wantsIrradiance);
+    const Composed lit = composite_.declare(graph_, view, frame, g, occluded, reference, counters, wantsIrradiance);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});
     const ImageRef picture = overlay_.declare(graph_, tonemap_.declare(graph_, view, lit.color, blank));

@@ -42,6 +42,11 @@ struct Composite
     uint hasIrradiance; // 0: `irradiance` is not asked for
 };
 
+struct Sky
+{
+    uint frame; // slot of a FrameBlock
+};
+
 struct Tonemap
 {
     uint color;

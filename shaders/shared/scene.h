@@ -16,26 +16,19 @@ struct MaterialBlock
     uint metallicRoughnessImage;
 };
 
-const uint kInstanceDynamic = 1u;
+const uint kDrawDynamic = 1u;
 
-struct InstanceBlock
+// One model in one place: push constants of the G-buffer, which all threads read alike.
+struct GBufferDraw
 {
-    mat4 worldFromLocal;
-    mat4 normalFromLocal; // inverse transpose, upper 3x3
+    vec4 worldFromLocal[3]; // rows
     uint64_t positions; // vec3[], local
     uint64_t normals; // vec3[]
     uint64_t uvs; // vec2[]
     uint64_t triangleMaterials; // uint[]: into materials
     uint64_t materials; // MaterialBlock[]
-    uint flags;
-    uint padding;
-};
-
-// Push constants of the G-buffer.
-struct GBufferDraw
-{
-    uint64_t instance; // InstanceBlock
     uint frame; // slot of a FrameBlock
+    uint flags;
 };
 
 #endif

@@ -69,20 +69,20 @@ void echo(FrameBlock b)
         put(b.irradianceSh[i]);
 }
 
-#elif defined(INSTANCE_BLOCK)
+#elif defined(GBUFFER_DRAW)
 
-#define Block InstanceBlock
-void echo(InstanceBlock b)
+#define Block GBufferDraw
+void echo(GBufferDraw b)
 {
-    put(b.worldFromLocal);
-    put(b.normalFromLocal);
+    for (int i = 0; i < 3; ++i)
+        put(b.worldFromLocal[i]);
     put(b.positions);
     put(b.normals);
     put(b.uvs);
     put(b.triangleMaterials);
     put(b.materials);
+    put(b.frame);
     put(b.flags);
-    put(b.padding);
 }
 
 #elif defined(MATERIAL_BLOCK)

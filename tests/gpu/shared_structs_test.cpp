@@ -56,11 +56,10 @@ TEST_F(SharedStructs, FrameBlock)
     });
 }
 
-TEST_F(SharedStructs, InstanceBlock)
+TEST_F(SharedStructs, GBufferDraw)
 {
-    expectSameLayout<shader::InstanceBlock>("INSTANCE_BLOCK", [](const auto& b) {
-        return wordsOf(b.worldFromLocal, b.normalFromLocal, b.positions, b.normals, b.uvs, b.triangleMaterials, b.materials, b.flags,
-                       b.padding);
+    expectSameLayout<shader::GBufferDraw>("GBUFFER_DRAW", [](const auto& b) {
+        return wordsOf(b.worldFromLocal, b.positions, b.normals, b.uvs, b.triangleMaterials, b.materials, b.frame, b.flags);
     });
 }
 

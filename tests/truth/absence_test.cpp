@@ -11,8 +11,8 @@ using testing::Contains;
 using testing::IsSupersetOf;
 using testing::Not;
 
-const std::vector<std::string> kPassesOfMotion{"skinning", "triangle builds", "scene build", "bounds", "occlusion trace", "occlusion filter",
-                                               "occlusion upsample"};
+const std::vector<std::string> kPassesOfMotion{"skinning",        "triangle builds",  "scene build",       "bounds",
+                                               "occlusion trace", "occlusion filter", "occlusion upsample"};
 
 class AbsenceTest : public DeviceTest
 {

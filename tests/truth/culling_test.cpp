@@ -56,7 +56,8 @@ protected:
 
 /// The pictures are half floats: sums that differ by a share s of their value come out a step apart in a share s / step of the pixels,
 /// so the mean difference is the true one, and no pixel is off by more than a step.
-void expectEqual(const scene::ImageF& culled, const scene::ImageF& unculled, const scene::ImageF& unshadowed, const std::vector<size_t>& surface)
+void expectEqual(const scene::ImageF& culled, const scene::ImageF& unculled, const scene::ImageF& unshadowed,
+                 const std::vector<size_t>& surface)
 {
     double difference = 0, whole = 0, greatest = 0;
     for (const size_t pixel : surface)
@@ -110,7 +111,12 @@ TEST_P(CullingTest, SparesRays)
 INSTANTIATE_TEST_SUITE_P(Truth, CullingTest,
                          testing::Values(Case{"Plaza", [] { return namedScene("plaza"); }, {0, 0.35f, 0.5f}, ""},
                                          Case{"Hall", [] { return namedScene("hall"); }, {0, 0.35f}, ""},
-                                         Case{"Crowd", [] { return namedScene("crowd", {{"crowd.count", "10"}}); }, {0.2f, 0.45f}, ""},
+                                         Case{"Crowd",
+                                              [] {
+                                                  return namedScene("crowd", {{"crowd.count", "10"}});
+                                              },
+                                              {0.2f, 0.45f},
+                                              ""},
                                          characterCase("CesiumMan", "CesiumMan.glb"), characterCase("Fox", "Fox.glb"),
                                          characterCase("RiggedFigure", "RiggedFigure.glb"),
                                          characterCase("AnimatedMorphCube", "AnimatedMorphCube.glb"),

@@ -45,7 +45,7 @@ TEST_P(FilterTest, KeepsAConstant)
 {
     // Under a moving dome, whose inside is not drawn, every ray of the floor is stopped; the sky beside it has no occlusion to give.
     scene::SceneFile scene = emptyScene();
-    scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, vec3(2.5f)), movingShape(MeshKind::Sphere, {0, 0, 0}, vec3(12))};
+    scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, vec3(3.5f)), movingShape(MeshKind::Sphere, {0, 0, 0}, vec3(12))};
     Shown inside(device(), scene);
     configure(inside);
     const std::vector<size_t> floor = pixelsAtHeight(inside, 0);
@@ -68,7 +68,7 @@ TEST_P(FilterTest, MixesNothingAcrossADepthEdge)
     const std::vector<size_t> table = pixelsAtHeight(above, 1);
     ASSERT_GT(table.size(), 500u);
     const scene::ImageF occluded = above.capture(Aov::Occluded);
-    ASSERT_GT(std::ranges::max(occluded.values), 1.0f) << "nothing dark to bleed";
+    ASSERT_GT(std::ranges::max(occluded.values), 0.5f) << "nothing dark to bleed";
     size_t darkened = 0;
     for (const size_t pixel : table)
         darkened += pixelOf(occluded, pixel).y > 2e-3f * kPi ? 1 : 0;

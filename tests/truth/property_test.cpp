@@ -88,7 +88,8 @@ TEST_F(PropertyTest, TurningWorldAndLightTogetherChangesNothing)
     std::vector<size_t> surface = surfaceOf(depth);
     // Rounding moves an outline by a pixel here and there.
     const size_t all = surface.size();
-    std::erase_if(surface, [&](size_t pixel) { return std::abs(depthTurned.values[pixel] - depth.values[pixel]) > 1e-3f * depth.values[pixel]; });
+    std::erase_if(surface,
+                  [&](size_t pixel) { return std::abs(depthTurned.values[pixel] - depth.values[pixel]) > 1e-3f * depth.values[pixel]; });
     ASSERT_GT(surface.size(), all * 98 / 100);
     const scene::ImageF unshadowed = straight.capture(Aov::Unshadowed);
     const double light = meanOf(unshadowed, surface);

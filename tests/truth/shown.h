@@ -9,7 +9,8 @@
 
 namespace antumbra::truth {
 
-/// A scene, a renderer and the knobs it is drawn with: at first full resolution, 128 samples, no filter, no tolerance, every pose built at once.
+/// A scene, a renderer and the knobs it is drawn with: at first full resolution, 128 samples, no filter, no tolerance, every pose built at
+/// once.
 class Shown
 {
 public:

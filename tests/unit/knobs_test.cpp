@@ -138,7 +138,7 @@ TEST(Knobs, CommandLineOverridesSceneFileOverridesDevice)
     const Knobs knobs = resolveKnobs(DeviceClass::Cpu, scene, command);
     EXPECT_EQ(knobs.occlusion.samples, 96u);
     EXPECT_EQ(knobs.occlusion.filter, 0u);
-    EXPECT_EQ(knobs.occlusion.scale, Scale::Half);
+    EXPECT_EQ(knobs.occlusion.scale, Scale::Quarter);
 }
 
 } // namespace

@@ -61,7 +61,8 @@ TEST(Sweep, APointIsReadWhole)
 
 TEST(Sweep, AGridStandsForEveryCombination)
 {
-    const Sweep sweep = sweepOf(R"({"grid": {"occlusion.scale": ["1", "1/2"], "occlusion.samples": [32, 64]}, "points": [{"scene": "hall"}]})");
+    const Sweep sweep =
+        sweepOf(R"({"grid": {"occlusion.scale": ["1", "1/2"], "occlusion.samples": [32, 64]}, "points": [{"scene": "hall"}]})");
     EXPECT_THAT(namesOf(sweep), ElementsAre("hall samples=32 scale=1", "hall samples=32 scale=1/2", "hall samples=64 scale=1",
                                             "hall samples=64 scale=1/2"));
     EXPECT_EQ(sweep.points[3].settings, (render::Settings{{"occlusion.samples", "64"}, {"occlusion.scale", "1/2"}}));

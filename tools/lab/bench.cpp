@@ -20,7 +20,7 @@ constexpr uint32_t kFramesToSettle = 1 + gpu::kFramesInFlight;
 struct Counter
 {
     std::string_view name;
-    shader::uint shader::CounterBlock::* value;
+    shader::uint shader::CounterBlock::*value;
 };
 
 constexpr std::array kCounters{Counter{"rays_considered", &shader::CounterBlock::raysConsidered},

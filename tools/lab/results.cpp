@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 struct Figure
 {
     const char* name;
-    double app::ImageError::* value;
+    double app::ImageError::*value;
 };
 
 constexpr Figure kFigures[] = {{"rmse", &app::ImageError::rmse},
@@ -65,8 +65,8 @@ Json knobsOf(const Row& row)
 Json identityOf(const Row& row)
 {
     const app::SweepPoint& point = row.point;
-    return {{"name", point.name},       {"scene", point.scene},      {"size", {point.size.x, point.size.y}},
-            {"time", point.seconds},    {"animate", point.animates}, {"reference", point.referenceSamples},
+    return {{"name", point.name},    {"scene", point.scene},      {"size", {point.size.x, point.size.y}},
+            {"time", point.seconds}, {"animate", point.animates}, {"reference", point.referenceSamples},
             {"knobs", knobsOf(row)}};
 }
 
@@ -102,7 +102,7 @@ void takeOver(Row& row, const Json& object)
     row.error = error;
 }
 
-std::vector<std::string> namesOf(const Results& results, std::vector<Series> Samples::* part)
+std::vector<std::string> namesOf(const Results& results, std::vector<Series> Samples::*part)
 {
     std::vector<std::string> names;
     for (const Row& row : results.rows)
@@ -158,7 +158,8 @@ std::string csvOf(const Results& results)
     std::string text = headOf(results, times, counters);
     for (const Row& row : results.rows) {
         const app::SweepPoint& point = row.point;
-        text += fmt::format("{},{},{},{},{},{}", quoted(point.name), quoted(point.scene), point.size.x, point.size.y, point.seconds, row.rounds);
+        text += fmt::format("{},{},{},{},{},{}", quoted(point.name), quoted(point.scene), point.size.x, point.size.y, point.seconds,
+                            row.rounds);
         for (const auto& [key, value] : row.knobs)
             text += ',' + value;
         for (const Figure& figure : kFigures)
@@ -194,7 +195,8 @@ void resume(Results& results, const Path& file)
         if (machine.at("device") != results.device.name || machine.at("driver") != results.device.driver)
             throw Error("measured on another device: it cannot be resumed here", file.string());
         for (const Json& object : document.at("rows")) {
-            const auto row = std::ranges::find(results.rows, object.at("name").get<std::string>(), [](const Row& r) { return r.point.name; });
+            const auto row =
+                std::ranges::find(results.rows, object.at("name").get<std::string>(), [](const Row& r) { return r.point.name; });
             const Json identity = row != results.rows.end() ? identityOf(*row) : Json::object({{"name", nullptr}});
             for (const auto& [key, value] : identity.items())
                 if (object.at(key) != value)
@@ -214,8 +216,8 @@ std::string tableOf(const Results& results)
             const std::optional<app::Quartiles> quartiles = quartilesOf(row.samples.times, name);
             return quartiles ? fmt::format("{:10.2f}", quartiles->median) : fmt::format("{:>10}", "-");
         };
-        const std::string error =
-            row.error ? fmt::format("{:11.3f}%{:8.4f}", 100 * row.error->relativeRmse, row.error->ssim) : fmt::format("{:>12}{:>8}", "-", "-");
+        const std::string error = row.error ? fmt::format("{:11.3f}%{:8.4f}", 100 * row.error->relativeRmse, row.error->ssim)
+                                            : fmt::format("{:>12}{:>8}", "-", "-");
         text += fmt::format("{:<52}{}{}{}\n", row.point.name, time("frame"), time("occlusion trace"), error);
     }
     return text;

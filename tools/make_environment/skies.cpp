@@ -62,7 +62,7 @@ dvec3 overcast(const dvec3& direction)
 
 dvec3 lowSun(const dvec3& direction)
 {
-    constexpr double kElevation = 20 * std::numbers::pi / 180, kAzimuth = 50 * std::numbers::pi / 180; // left of -Z
+    constexpr double kElevation = 32 * std::numbers::pi / 180, kAzimuth = 50 * std::numbers::pi / 180; // left of -Z
     constexpr double kRadius = 2.5 * std::numbers::pi / 180;
     const dvec3 sun{-std::cos(kElevation) * std::sin(kAzimuth), std::sin(kElevation), -std::cos(kElevation) * std::cos(kAzimuth)};
     const double angle = std::acos(std::clamp(glm::dot(direction, sun), -1.0, 1.0));
@@ -73,7 +73,7 @@ dvec3 lowSun(const dvec3& direction)
     const dvec3 horizon = glm::mix(dvec3{0.36, 0.42, 0.56}, dvec3{1.15, 0.78, 0.46}, towardsSun * towardsSun);
     const dvec3 glow = 1.1 * std::exp(-angle / 0.3) * dvec3{1.0, 0.58, 0.25} + 5.0 * std::exp(-angle / 0.055) * dvec3{1.0, 0.7, 0.4};
     const double disc = 1 - glm::smoothstep(0.9 * kRadius, 1.1 * kRadius, angle);
-    const dvec3 sky = glm::mix(horizon, zenith, std::pow(up, 0.42)) + glow + disc * 190.0 * dvec3{1.0, 0.74, 0.45};
+    const dvec3 sky = glm::mix(horizon, zenith, std::pow(up, 0.42)) + glow + disc * 640.0 * dvec3{1.0, 0.74, 0.45};
     const dvec3 ground = glm::mix(dvec3{0.2, 0.165, 0.13}, dvec3{0.29, 0.215, 0.145}, towardsSun);
     return acrossHorizon(ground, sky, direction.y);
 }

@@ -34,7 +34,7 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
     sampleCount_ = knobs.samples;
 }
 
-graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
                                               const GpuScene& scene, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
@@ -49,13 +49,13 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
     const gpu::Pipeline& pipeline = trace_[static_cast<size_t>(knobs.culling)];
-    pass.record([this, &view, &scene, &pipeline, addresses, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
+    pass.record([this, &view, &scene, &pipeline, frame, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::OcclusionTrace{.scene = scene.scene().address(),
                                                  .samples = samples_.address(),
                                                  .masks = masks_.address(),
                                                  .counters = recorder.address(counted),
-                                                 .frame = addresses.frame,
+                                                 .frame = frame,
                                                  .evenSamples = samples_.slot(),
                                                  .blockers = scene.blockers().slot(),
                                                  .capsules = scene.capsules().slot(),
@@ -72,7 +72,7 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     return traced;
 }
 
-graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
                                                const GBuffer& g, graph::ImageRef traced)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
@@ -83,9 +83,9 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
     graph::Pass pass = graph.add("occlusion filter");
     pass.read(traced, Use::Sampled);
     const graph::ImageRef filtered = pass.create("occluded, filtered", {.format = kTracedFormat, .like = traced}, Use::StorageWrite);
-    pass.record([this, &knobs, addresses, traced, filtered, last = graph.extent(g.depth) - 1u](graph::Recorder& recorder) {
+    pass.record([this, &knobs, frame, traced, filtered, last = graph.extent(g.depth) - 1u](graph::Recorder& recorder) {
         recorder.dispatch(filter_,
-                          shader::OcclusionFilter{.frame = addresses.frame,
+                          shader::OcclusionFilter{.frame = frame,
                                                   .traced = recorder.sampled(traced),
                                                   .filtered = recorder.storage(filtered),
                                                   .radius = static_cast<int>(knobs.filter / 2),
@@ -96,7 +96,7 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
     return filtered;
 }
 
-graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
                                                  const GBuffer& g, graph::ImageRef coarse)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
@@ -105,9 +105,9 @@ graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const
     pass.read(g.normals, Use::Sampled);
     pass.read(coarse, Use::Sampled);
     const graph::ImageRef occluded = pass.create("occluded", {.format = kOccludedFormat, .like = g.depth}, Use::StorageWrite);
-    pass.record([this, &knobs, addresses, g, coarse, occluded](graph::Recorder& recorder) {
+    pass.record([this, &knobs, frame, g, coarse, occluded](graph::Recorder& recorder) {
         recorder.dispatch(upsample_,
-                          shader::OcclusionUpsample{.frame = addresses.frame,
+                          shader::OcclusionUpsample{.frame = frame,
                                                     .depth = recorder.sampled(g.depth),
                                                     .normals = recorder.sampled(g.normals),
                                                     .coarse = recorder.sampled(coarse),
@@ -118,7 +118,7 @@ graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const
     return occluded;
 }
 
-graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
                                          const GpuScene& scene, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     if (!posed.scene) {
@@ -128,8 +128,8 @@ graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameVi
         return {};
     }
     prepare(view.knobs.occlusion);
-    const graph::ImageRef traced = declareTrace(graph, view, addresses, scene, g, posed, counters);
-    return declareUpsample(graph, view, addresses, g, declareFilter(graph, view, addresses, g, traced));
+    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, g, posed, counters);
+    return declareUpsample(graph, view, frame, g, declareFilter(graph, view, frame, g, traced));
 }
 
 } // namespace antumbra::render

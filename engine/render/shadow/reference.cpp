@@ -52,7 +52,7 @@ uint64_t ReferenceSystem::fingerprint(const FrameView& view, uvec2 extent)
     return print.value();
 }
 
-graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, const FrameAddresses& addresses,
+graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
                                          const GpuScene& scene, const GBuffer& g, const Posed& posed)
 {
     const uint32_t wanted = wantedSamples(view.knobs);
@@ -83,17 +83,17 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         pass.read(posed.scene, Use::AccelRead);
         traced = pass.create("reference, traced", {.format = kMeanFormat, .like = g.depth}, Use::StorageWrite);
         const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
-        pass.record([this, &scene, addresses, g, traced, own, frame = frames_](graph::Recorder& recorder) {
+        pass.record([this, &scene, frame, g, traced, own, summed = frames_](graph::Recorder& recorder) {
             recorder.dispatch(trace_,
                               shader::OcclusionTrace{.scene = scene.scene().address(),
                                                      .counters = recorder.address(own),
-                                                     .frame = addresses.frame,
+                                                     .frame = frame,
                                                      .depth = recorder.sampled(g.depth),
                                                      .normals = recorder.sampled(g.normals),
                                                      .occluded = recorder.storage(traced),
                                                      .sampleCount = kSamplesAFrame,
                                                      .pixelScale = 1.0f,
-                                                     .frameIndex = frame},
+                                                     .frameIndex = summed},
                               recorder.extent(traced), kTraceGroup);
         });
     } else {
@@ -105,12 +105,12 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
     if (traced)
         pass.read(traced, Use::Sampled);
     const graph::ImageRef mean = pass.write(history.now, Use::StorageWrite);
-    pass.record([this, history, traced, mean, frame = frames_](graph::Recorder& recorder) {
+    pass.record([this, history, traced, mean, summed = frames_](graph::Recorder& recorder) {
         recorder.dispatch(accumulate_,
                           shader::ReferenceAccumulate{.now = recorder.storage(mean),
                                                       .before = recorder.sampled(history.before),
                                                       .traced = traced ? recorder.sampled(traced) : shader::kNothingTraced,
-                                                      .frameCount = frame},
+                                                      .frameCount = summed},
                           recorder.extent(mean));
     });
     frames_ += traced ? 1 : 0;
