@@ -18,7 +18,7 @@
 #include "lib/traced.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Samples { vec4 direction[]; };
-layout(buffer_reference, scalar) readonly buffer Masks { uvec4 samples[]; };
+layout(buffer_reference, scalar) readonly buffer Masks { uint word[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(set = 0, binding = 3, scalar) readonly buffer EvenSamples { vec4 direction[]; } evenSamples[];
 layout(set = 0, binding = 3, scalar) readonly buffer Blockers { BlockerBlock block[]; } blockers[];
@@ -129,7 +129,11 @@ Survivors survivorsAmong(Receiver r, uint base)
 
 uvec4 maskOf(vec3 axis, float sine, uint base)
 {
-    return Masks(pc.masks).samples[maskCell(axis, sine) * ((pc.sampleCount + 127u) / 128u) + base / 128u];
+    uint first = (maskCell(axis, sine) * pc.sampleCount + base) / 32u, words = wordCount(base);
+    uvec4 samples = uvec4(0u);
+    for (uint w = 0u; w < words; ++w)
+        samples[w] = Masks(pc.masks).word[first + w];
+    return samples;
 }
 
 // Candidates that meet the capsule; its ends relative to the origin, in the sample frame.

@@ -166,7 +166,7 @@ Knobs defaultKnobs(DeviceClass device)
 {
     Knobs knobs;
     if (device == DeviceClass::Cpu) {
-        knobs.occlusion.samples = 64;
+        knobs.occlusion.samples = 32;
         knobs.occlusion.scale = Scale::Quarter;
     }
     return knobs;

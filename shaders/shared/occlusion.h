@@ -46,7 +46,7 @@ struct OcclusionTrace
 {
     uint64_t scene; // top-level acceleration structure
     uint64_t samples; // vec4[sampleCount], local directions
-    uint64_t masks; // uvec4[cell][sampleCount / 128]
+    uint64_t masks; // uint[cell][sampleCount / 32]
     uint64_t counters; // CounterBlock
     uint frame; // slots: FrameBlock,
     uint evenSamples; // the samples again,

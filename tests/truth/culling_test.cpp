@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 namespace antumbra::truth {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using render::Aov;
 
 constexpr double kSummationOrder = 1e-5; // relative
-constexpr float kHalfStep = 0x1p-10f;    // between neighbouring values of the picture's half floats, relative
+constexpr float kHalfStep = 0x1p-10f;    // between neighbouring half floats, relative, at most
 
 struct Case
 {
@@ -59,7 +60,8 @@ protected:
 void expectEqual(const scene::ImageF& culled, const scene::ImageF& unculled, const scene::ImageF& unshadowed,
                  const std::vector<size_t>& surface)
 {
-    double difference = 0, whole = 0, greatest = 0;
+    double difference = 0, whole = 0;
+    double greatest = 0; // in steps
     for (const size_t pixel : surface)
         for (int channel = 0; channel < 3; ++channel) {
             const float truth = pixelOf(unculled, pixel)[channel];
@@ -108,6 +110,18 @@ TEST_P(CullingTest, SparesRays)
     EXPECT_LT(bones, 1.02 * length) << "about a cube, a capsule is no tighter than a sphere; with limbs it is";
 }
 
+TEST_P(CullingTest, HoldsForSampleCountsThatFillNoWholeMask)
+{
+    Shown shown(device(), GetParam().scene());
+    shown.advance(GetParam().seconds.front());
+    shown.set("occlusion.samples", "160");
+    shown.set("occlusion.culling", "none");
+    const scene::ImageF unculled = shown.capture(Aov::Occluded);
+    const scene::ImageF unshadowed = shown.capture(Aov::Unshadowed);
+    shown.set("occlusion.culling", "bones");
+    expectEqual(shown.capture(Aov::Occluded), unculled, unshadowed, surfaceOf(shown.capture(Aov::Depth)));
+}
+
 INSTANTIATE_TEST_SUITE_P(Truth, CullingTest,
                          testing::Values(Case{"Plaza", [] { return namedScene("plaza"); }, {0, 0.35f, 0.5f}, ""},
                                          Case{"Hall", [] { return namedScene("hall"); }, {0, 0.35f}, ""},
@@ -122,18 +136,6 @@ INSTANTIATE_TEST_SUITE_P(Truth, CullingTest,
                                          characterCase("AnimatedMorphCube", "AnimatedMorphCube.glb"),
                                          characterCase("Robot", "raylib_robot.glb")),
                          [](const auto& test) { return test.param.name; });
-
-TEST_P(CullingTest, HoldsForSampleCountsThatFillNoWholeMask)
-{
-    Shown shown(device(), GetParam().scene());
-    shown.advance(GetParam().seconds.front());
-    shown.set("occlusion.samples", "160");
-    shown.set("occlusion.culling", "none");
-    const scene::ImageF unculled = shown.capture(Aov::Occluded);
-    const scene::ImageF unshadowed = shown.capture(Aov::Unshadowed);
-    shown.set("occlusion.culling", "bones");
-    expectEqual(shown.capture(Aov::Occluded), unculled, unshadowed, surfaceOf(shown.capture(Aov::Depth)));
-}
 
 } // namespace
 } // namespace antumbra::truth

@@ -5,8 +5,6 @@
 #include "gpu/device_fixture.h"
 #include "render/renderer.h"
 
-#include <functional>
-
 namespace antumbra::truth {
 
 /// A scene, a renderer and the knobs it is drawn with: at first full resolution, 128 samples, no filter, no tolerance, every pose built at
@@ -39,7 +37,7 @@ private:
 /// Where the surface of a pixel is; view depth in metres, as Aov::Depth has it.
 vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, float depthView);
 
-/// Of the surface, where `depth` is positive: pixels that `holds` is true of.
+/// The pixels that show a surface.
 std::vector<size_t> surfaceOf(const scene::ImageF& depth);
 vec3 pixelOf(const scene::ImageF& image, size_t pixel);
 double meanOf(const scene::ImageF& image, const std::vector<size_t>& pixels);

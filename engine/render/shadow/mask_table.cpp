@@ -87,7 +87,7 @@ std::vector<vec4> hemisphereSamples(uint32_t count)
 std::vector<uint32_t> maskTable(const std::vector<vec4>& samples)
 {
     constexpr uint32_t axes = shader::kMaskAxisCells * shader::kMaskAxisCells;
-    const size_t words = (samples.size() + 127) / 128 * 4;
+    const size_t words = (samples.size() + 31) / 32;
     std::vector<uint32_t> table(words * axes * shader::kMaskAngleCells, 0);
     for (uint32_t axis = 0; axis < axes; ++axis) {
         const AxisCell cell = axisCell(axis % shader::kMaskAxisCells, axis / shader::kMaskAxisCells);

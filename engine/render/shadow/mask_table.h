@@ -13,7 +13,7 @@ namespace antumbra::render {
 std::vector<vec4> hemisphereSamples(uint32_t count);
 
 /// Bit s of word [cell][s / 32] is set unless sample s lies outside every cone of the cell; cells as in shaders/lib/mask_table.glsl,
-/// four words for every 128 samples begun. 256 KiB for 128 samples.
+/// a word for every 32 samples begun. 256 KiB for 128 samples.
 std::vector<uint32_t> maskTable(const std::vector<vec4>& samples);
 
 } // namespace antumbra::render
