@@ -53,7 +53,7 @@ vec3 localSample(uint i)
 {
 #ifdef REFERENCE
     // Another ring offset every frame: van der Corput, so that any number of frames is well spread.
-    return cosineHammersley(i, pc.sampleCount, radicalInverse2(pc.frameIndex * 2u + 1u));
+    return cosineHammersley(i, pc.sampleCount, radicalInverse2(pc.frameIndex + 1u));
 #else
     return Samples(pc.samples).direction[i].xyz;
 #endif
