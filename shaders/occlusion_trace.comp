@@ -17,10 +17,10 @@
 #include "lib/ray_query.glsl"
 #include "lib/traced.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Samples { vec4 direction[]; };
+layout(buffer_reference, scalar) readonly buffer Samples { uint word[]; };
 layout(buffer_reference, scalar) readonly buffer Masks { uint word[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
-layout(set = 0, binding = 3, scalar) readonly buffer EvenSamples { vec4 direction[]; } evenSamples[];
+layout(set = 0, binding = 3, scalar) readonly buffer EvenSamples { uint word[]; } evenSamples[];
 layout(set = 0, binding = 3, scalar) readonly buffer Blockers { BlockerBlock block[]; } blockers[];
 layout(set = 0, binding = 3, scalar) readonly buffer Capsules { CapsuleBlock block[]; } capsules[];
 layout(push_constant, scalar) uniform Push { OcclusionTrace pc; };
@@ -55,7 +55,7 @@ vec3 localSample(uint i)
     // Another ring offset every frame: van der Corput, so that any number of frames is well spread.
     return cosineHammersley(i, pc.sampleCount, radicalInverse2(pc.frameIndex + 1u));
 #else
-    return Samples(pc.samples).direction[i].xyz;
+    return sampleFromWord(Samples(pc.samples).word[i]);
 #endif
 }
 
@@ -65,7 +65,7 @@ vec3 evenSample(uint i)
 #ifdef REFERENCE
     return localSample(i);
 #else
-    return evenSamples[pc.evenSamples].direction[i].xyz;
+    return sampleFromWord(evenSamples[pc.evenSamples].word[i]);
 #endif
 }
 
@@ -139,17 +139,16 @@ uvec4 maskOf(vec3 axis, float sine, uint base)
 // Candidates that meet the capsule; its ends relative to the origin, in the sample frame.
 uvec4 samplesThatHit(uvec4 candidates, uint base, vec3 a, vec3 b, float radius)
 {
+    // The test stands behind the body: CPU devices run a body once more than its loop goes round.
     uvec4 hits = uvec4(0u);
-    while (true) {
+    do {
         uint w = candidates.x != 0u ? 0u : candidates.y != 0u ? 1u : candidates.z != 0u ? 2u : 3u;
         uint word = candidates[w];
-        if (word == 0u)
-            return hits;
-        uint bit = word & (~word + 1u);
+        uint bit = word & (~word + 1u); // none: 0
         candidates[w] = word ^ bit;
-        if (hitsCapsule(vec3(0.0), localSample(base + 32u * w + uint(findLSB(word))), a, b, radius))
+        if (hitsCapsule(vec3(0.0), localSample(base + 32u * w + uint(max(findLSB(word), 0))), a, b, radius))
             hits[w] |= bit;
-    }
+    } while (any(notEqual(candidates, uvec4(0u))));
     return hits;
 }
 
@@ -231,7 +230,8 @@ void traceTogether(Receiver r, uvec4 survivors, uint base)
     hits[me] = uvec4(0u);
     barrier();
     uint next = atomicAdd(rayCount, bitCountOf(survivors));
-    for (uint w = 0u; w < 4u; ++w)
+    uint words = wordCount(base);
+    for (uint w = 0u; w < words; ++w)
         for (uint word = survivors[w]; word != 0u; word &= word - 1u)
             rays[next++] = me << 7u | w << 5u | uint(findLSB(word));
     barrier();
@@ -242,7 +242,7 @@ void traceTogether(Receiver r, uvec4 survivors, uint base)
             atomicOr(hits[pixel][bit >> 5u], 1u << (bit & 31u));
     }
     barrier();
-    for (uint w = 0u; w < 4u; ++w)
+    for (uint w = 0u; w < words; ++w)
         for (uint word = hits[me][w]; word != 0u; word &= word - 1u)
             addHidden(r.frame * localSample(base + 32u * w + uint(findLSB(word))));
 }

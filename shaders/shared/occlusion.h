@@ -45,7 +45,7 @@ struct BlockerDispatch
 struct OcclusionTrace
 {
     uint64_t scene; // top-level acceleration structure
-    uint64_t samples; // vec4[sampleCount], local directions
+    uint64_t samples; // uint[sampleCount], local directions as packed by engine/render/shadow/mask_table.h
     uint64_t masks; // uint[cell][sampleCount / 32]
     uint64_t counters; // CounterBlock
     uint frame; // slots: FrameBlock,

@@ -67,6 +67,8 @@ TEST_F(LibHemisphere, FramesAreOrthonormalAndRightHanded)
 
 TEST_F(LibHemisphere, TheHostHasTheSameSamples)
 {
+    // Half a step of 16 bits on the disk, and what it makes of the height at the rim of 4096 points.
+    constexpr float kPacked = 2.0e-3f;
     for (const uint32_t count : {32u, 128u, 1024u, 4096u}) {
         std::vector<uvec2> inputs;
         for (uint32_t i = 0; i < count; ++i)
@@ -78,7 +80,7 @@ TEST_F(LibHemisphere, TheHostHasTheSameSamples)
         std::ranges::sort(onDevice, {}, &vec3::z);
         std::ranges::sort(onHost, {}, &vec4::z);
         for (uint32_t i = 0; i < count; ++i)
-            ASSERT_LT(glm::distance(onDevice[i], vec3(onHost[i])), 3e-6f) << i << " of " << count;
+            ASSERT_LT(glm::distance(onDevice[i], vec3(onHost[i])), kPacked) << i << " of " << count;
     }
 }
 

