@@ -45,7 +45,8 @@ VkAccelerationStructureBuildGeometryInfoKHR buildInfo(const VkAccelerationStruct
 AccelSizes sizesOf(Device& device, const VkAccelerationStructureBuildGeometryInfoKHR& info, uint32_t primitiveCount)
 {
     VkAccelerationStructureBuildSizesInfoKHR sizes{.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    vkGetAccelerationStructureBuildSizesKHR(device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &primitiveCount, &sizes);
+    vkGetAccelerationStructureBuildSizesKHR(device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &primitiveCount,
+                                            &sizes);
     const VkDeviceSize alignment = device.info().accelScratchAlignment;
     return {sizes.accelerationStructureSize, (sizes.buildScratchSize + alignment - 1) / alignment * alignment};
 }

@@ -56,8 +56,8 @@ Bindless::Bindless(VkDevice device) : device_(device), freeSampled_(allSlots()),
                                                    VK_DESCRIPTOR_BINDING_UPDATE_UNUSED_WHILE_PENDING_BIT;
     const std::array<VkDescriptorBindingFlags, 4> flags{slotFlags, slotFlags, 0, slotFlags};
     const VkDescriptorSetLayoutBindingFlagsCreateInfo flagsInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO,
-                                                               .bindingCount = static_cast<uint32_t>(flags.size()),
-                                                               .pBindingFlags = flags.data()};
+                                                                .bindingCount = static_cast<uint32_t>(flags.size()),
+                                                                .pBindingFlags = flags.data()};
     const VkDescriptorSetLayoutCreateInfo setInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                   .pNext = &flagsInfo,
                                                   .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_UPDATE_AFTER_BIND_POOL_BIT,
@@ -75,8 +75,10 @@ Bindless::Bindless(VkDevice device) : device_(device), freeSampled_(allSlots()),
                                               .poolSizeCount = static_cast<uint32_t>(sizes.size()),
                                               .pPoolSizes = sizes.data()};
     require(vkCreateDescriptorPool(device, &poolInfo, nullptr, &pool_), "vkCreateDescriptorPool");
-    const VkDescriptorSetAllocateInfo setAllocation{
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, .descriptorPool = pool_, .descriptorSetCount = 1, .pSetLayouts = &setLayout_};
+    const VkDescriptorSetAllocateInfo setAllocation{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                    .descriptorPool = pool_,
+                                                    .descriptorSetCount = 1,
+                                                    .pSetLayouts = &setLayout_};
     require(vkAllocateDescriptorSets(device, &setAllocation, &set_), "vkAllocateDescriptorSets");
 
     const VkPushConstantRange push{VK_SHADER_STAGE_ALL, 0, kPushBytes};

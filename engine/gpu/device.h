@@ -19,7 +19,7 @@ inline constexpr uint32_t kFramesInFlight = 2;
 
 struct DeviceOptions
 {
-    bool validation = false;                           // messages are collected, see Device::validationMessages
+    bool validation = false;                            // messages are collected, see Device::validationMessages
     std::span<const char* const> windowExtensions = {}; // what the window system asks of the instance; empty: headless
 };
 

@@ -144,8 +144,8 @@ void Device::createInstance(const DeviceOptions& options)
     std::vector<const char*> extensions(options.windowExtensions.begin(), options.windowExtensions.end());
     std::vector<const char*> layers;
     if (options.validation) {
-        const auto available = enumerate<VkLayerProperties>(
-            [](uint32_t* count, VkLayerProperties* all) { vkEnumerateInstanceLayerProperties(count, all); });
+        const auto available =
+            enumerate<VkLayerProperties>([](uint32_t* count, VkLayerProperties* all) { vkEnumerateInstanceLayerProperties(count, all); });
         constexpr const char* validation = "VK_LAYER_KHRONOS_validation";
         if (std::ranges::none_of(available, [&](const auto& layer) { return std::strcmp(layer.layerName, validation) == 0; }))
             throw Error("the validation layer is not installed", validation, ExitCode::NoDevice);
@@ -164,19 +164,19 @@ void Device::createInstance(const DeviceOptions& options)
     volkLoadInstance(instance_);
     if (!options.validation)
         return;
-    const VkDebugUtilsMessengerCreateInfoEXT messenger{
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-        .pfnUserCallback = onMessage,
-        .pUserData = validationMessages_.get()};
+    const VkDebugUtilsMessengerCreateInfoEXT messenger{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+                                                       .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                                                          VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+                                                       .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+                                                       .pfnUserCallback = onMessage,
+                                                       .pUserData = validationMessages_.get()};
     require(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
 }
 
 void Device::choosePhysical()
 {
-    auto all = enumerate<VkPhysicalDevice>(
-        [&](uint32_t* count, VkPhysicalDevice* found) { vkEnumeratePhysicalDevices(instance_, count, found); });
+    auto all =
+        enumerate<VkPhysicalDevice>([&](uint32_t* count, VkPhysicalDevice* found) { vkEnumeratePhysicalDevices(instance_, count, found); });
     if (all.empty())
         throw Error("no device found; Mesa's lavapipe (mesa-vulkan-drivers) runs on any CPU", "Vulkan", ExitCode::NoDevice);
     std::ranges::stable_sort(all, std::greater{}, rank);
@@ -195,8 +195,8 @@ void Device::choosePhysical()
     if (physical_ == VK_NULL_HANDLE)
         throw Error(reasons, "no usable device", ExitCode::NoDevice);
 
-    VkPhysicalDeviceAccelerationStructurePropertiesKHR accel{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR accel{.sType =
+                                                                 VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceVulkan12Properties v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
     VkPhysicalDeviceVulkan11Properties v11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, .pNext = &v12};
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &v11};
@@ -240,8 +240,10 @@ void Device::createDevice(bool presents)
     features.rayQuery.rayQuery = VK_TRUE;
 
     const float priority = 1.0f;
-    const VkDeviceQueueCreateInfo queueInfo{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = queueFamily_, .queueCount = 1, .pQueuePriorities = &priority};
+    const VkDeviceQueueCreateInfo queueInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                            .queueFamilyIndex = queueFamily_,
+                                            .queueCount = 1,
+                                            .pQueuePriorities = &priority};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,
                                   .queueCreateInfoCount = 1,

@@ -17,7 +17,10 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) { return (value
 
 } // namespace
 
-Memory::Memory(VkPhysicalDevice physical, VkDevice device) : device_(device) { vkGetPhysicalDeviceMemoryProperties(physical, &properties_); }
+Memory::Memory(VkPhysicalDevice physical, VkDevice device) : device_(device)
+{
+    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
+}
 
 Memory::~Memory()
 {

@@ -26,10 +26,10 @@ struct Allocation
 
 struct MemoryStats
 {
-    uint64_t reservedBytes = 0;  // held from the driver
-    uint64_t usedBytes = 0;      // handed out
+    uint64_t reservedBytes = 0;   // held from the driver
+    uint64_t usedBytes = 0;       // handed out
     uint64_t allocationsEver = 0; // ranges handed out since the start
-    uint64_t blocksEver = 0;     // blocks taken from the driver since the start
+    uint64_t blocksEver = 0;      // blocks taken from the driver since the start
 };
 
 /// Best fit within blocks of 64 MiB; a larger request gets a block of its own. Images and buffers never share a block,

@@ -15,7 +15,7 @@ struct RasterState
     std::span<const Format> colorFormats = {};
     Format depthFormat = Format::Undefined; // reversed depth: greater is nearer
     bool writesDepth = true;
-    bool blends = false; // source over, premultiplied by the shader's alpha
+    bool blends = false; // source over, by the shader's alpha
 };
 
 class Pipeline

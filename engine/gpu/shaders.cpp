@@ -3,9 +3,9 @@
 #include "base/check.h"
 #include "base/error.h"
 
-#include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <fmt/core.h>
 

@@ -10,7 +10,7 @@ void require(VkResult result, std::string_view call)
     if (result >= 0) [[likely]]
         return;
     const std::string reason = result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY ? "out of memory"
-                               : result == VK_ERROR_DEVICE_LOST                                               ? "the device was lost"
+                               : result == VK_ERROR_DEVICE_LOST                                                 ? "the device was lost"
                                                                 : "Vulkan error " + std::to_string(static_cast<int>(result));
     throw Error(reason, std::string(call), ExitCode::NoDevice);
 }

@@ -90,40 +90,23 @@ void drawAbsent(std::string& dot, std::string_view id, const AbsentPass& pass)
 std::string_view nameOf(gpu::Format format)
 {
     switch (format) {
-    case gpu::Format::Undefined:
-        return "undefined";
-    case gpu::Format::R8Unorm:
-        return "r8 unorm";
-    case gpu::Format::Rgba8Unorm:
-        return "rgba8 unorm";
-    case gpu::Format::Rgba8Srgb:
-        return "rgba8 srgb";
-    case gpu::Format::Bgra8Unorm:
-        return "bgra8 unorm";
-    case gpu::Format::Bgra8Srgb:
-        return "bgra8 srgb";
-    case gpu::Format::R16Float:
-        return "r16 float";
-    case gpu::Format::Rg16Float:
-        return "rg16 float";
-    case gpu::Format::Rgba16Float:
-        return "rgba16 float";
-    case gpu::Format::Rgba16Snorm:
-        return "rgba16 snorm";
-    case gpu::Format::R32Float:
-        return "r32 float";
-    case gpu::Format::Rg32Float:
-        return "rg32 float";
-    case gpu::Format::Rgba32Float:
-        return "rgba32 float";
-    case gpu::Format::R32Uint:
-        return "r32 uint";
-    case gpu::Format::Rg32Uint:
-        return "rg32 uint";
-    case gpu::Format::Rgba32Uint:
-        return "rgba32 uint";
-    case gpu::Format::Depth32Float:
-        return "depth32 float";
+    case gpu::Format::Undefined: return "undefined";
+    case gpu::Format::R8Unorm: return "r8 unorm";
+    case gpu::Format::Rgba8Unorm: return "rgba8 unorm";
+    case gpu::Format::Rgba8Srgb: return "rgba8 srgb";
+    case gpu::Format::Bgra8Unorm: return "bgra8 unorm";
+    case gpu::Format::Bgra8Srgb: return "bgra8 srgb";
+    case gpu::Format::R16Float: return "r16 float";
+    case gpu::Format::Rg16Float: return "rg16 float";
+    case gpu::Format::Rgba16Float: return "rgba16 float";
+    case gpu::Format::Rgba16Snorm: return "rgba16 snorm";
+    case gpu::Format::R32Float: return "r32 float";
+    case gpu::Format::Rg32Float: return "rg32 float";
+    case gpu::Format::Rgba32Float: return "rgba32 float";
+    case gpu::Format::R32Uint: return "r32 uint";
+    case gpu::Format::Rg32Uint: return "rg32 uint";
+    case gpu::Format::Rgba32Uint: return "rgba32 uint";
+    case gpu::Format::Depth32Float: return "depth32 float";
     }
     return "undefined";
 }
@@ -133,14 +116,10 @@ std::string_view nameOf(Kind kind) { return kind == Kind::Image ? "image" : "buf
 std::string_view nameOf(Origin origin)
 {
     switch (origin) {
-    case Origin::Transient:
-        return "transient";
-    case Origin::Imported:
-        return "imported";
-    case Origin::HistoryBefore:
-        return "history before";
-    case Origin::HistoryNow:
-        return "history now";
+    case Origin::Transient: return "transient";
+    case Origin::Imported: return "imported";
+    case Origin::HistoryBefore: return "history before";
+    case Origin::HistoryNow: return "history now";
     }
     return "transient";
 }

@@ -37,7 +37,8 @@ Scope scopeOf(Use use)
                 VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
     case Use::DepthAttachment:
         return {kDepthTests, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-    case Use::DepthRead: return {kDepthTests | kShaders, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    case Use::DepthRead:
+        return {kDepthTests | kShaders, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     case Use::TransferRead: return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
     case Use::TransferWrite: return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
     case Use::Present: return {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
@@ -124,7 +125,8 @@ void Recorder::drawBound(const gpu::Buffer& indices, uint32_t indexCount, Faces 
 
 void Recorder::orderWithinPass() const
 {
-    constexpr VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
+    constexpr VkPipelineStageFlags2 stages =
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
     const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                    .srcStageMask = stages,
                                    .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
@@ -186,8 +188,8 @@ void Executor::make(Realisation& realisation, const Plan& plan, const FrameGraph
     for (size_t i = 0; i < realisation.needs.size(); ++i) {
         const Need& need = realisation.needs[i];
         const std::string_view label = graph.resources()[plan.transients[i]].label;
-        realisation.images.push_back(need.kind == Kind::Image ? gpu::Image(*device_, label, need.image, realisation.allocations[need.memory], 0)
-                                                              : gpu::Image());
+        realisation.images.push_back(
+            need.kind == Kind::Image ? gpu::Image(*device_, label, need.image, realisation.allocations[need.memory], 0) : gpu::Image());
     }
 }
 

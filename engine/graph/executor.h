@@ -55,7 +55,8 @@ public:
 private:
     friend class Executor;
     void bind(const gpu::Pipeline& pipeline, const void* push, size_t bytes);
-    void drawBound(const gpu::Buffer& indices, uint32_t indexCount, Faces faces, uint32_t firstIndex, VkIndexType type, int32_t vertexOffset);
+    void drawBound(const gpu::Buffer& indices, uint32_t indexCount, Faces faces, uint32_t firstIndex, VkIndexType type,
+                   int32_t vertexOffset);
 
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;

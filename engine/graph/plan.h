@@ -21,12 +21,7 @@ struct Barrier
     friend bool operator==(const Barrier&, const Barrier&) = default;
 };
 
-enum class Load : uint8_t
-{
-    Keep,
-    Clear,
-    Discard
-};
+enum class Load : uint8_t { Keep, Clear, Discard };
 
 struct Attachment
 {

@@ -41,12 +41,8 @@ struct ImageDesc
 };
 
 /// The caller's name for an image or a buffer that outlives the frame; only the executor looks behind it.
-enum class ImportedImage : uint64_t
-{
-};
-enum class ImportedBuffer : uint64_t
-{
-};
+enum class ImportedImage : uint64_t {};
+enum class ImportedBuffer : uint64_t {};
 
 /// Names a pair of images that live on over frames. A render system owns it; only the frame graph changes it.
 struct HistorySlot
@@ -69,20 +65,10 @@ struct History
     bool valid = false; // `before` holds the frame before, at the same format and extent; else its contents are undefined
 };
 
-enum class Kind : uint8_t
-{
-    Image,
-    Buffer
-};
+enum class Kind : uint8_t { Image, Buffer };
 
 /// Where the memory comes from: shared out within the frame, the caller's, or kept by the executor for a HistorySlot.
-enum class Origin : uint8_t
-{
-    Transient,
-    Imported,
-    HistoryBefore,
-    HistoryNow
-};
+enum class Origin : uint8_t { Transient, Imported, HistoryBefore, HistoryNow };
 
 struct Resource
 {

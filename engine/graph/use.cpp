@@ -8,19 +8,13 @@ Layout layoutOf(Use use)
 {
     switch (use) {
     case Use::Sampled:
-    case Use::DepthRead:
-        return Layout::ReadOnly;
+    case Use::DepthRead: return Layout::ReadOnly;
     case Use::ColorAttachment:
-    case Use::DepthAttachment:
-        return Layout::Attachment;
-    case Use::TransferRead:
-        return Layout::TransferSource;
-    case Use::TransferWrite:
-        return Layout::TransferTarget;
-    case Use::Present:
-        return Layout::Present;
-    default:
-        return Layout::General;
+    case Use::DepthAttachment: return Layout::Attachment;
+    case Use::TransferRead: return Layout::TransferSource;
+    case Use::TransferWrite: return Layout::TransferTarget;
+    case Use::Present: return Layout::Present;
+    default: return Layout::General;
     }
 }
 

@@ -7,8 +7,7 @@
 
 namespace antumbra::graph {
 
-enum class Use : uint8_t
-{
+enum class Use : uint8_t {
     Sampled,         // image, by any shader
     StorageRead,     // image or buffer, by any shader
     StorageWrite,    // image or buffer, read and written by any shader
@@ -29,16 +28,7 @@ enum class Use : uint8_t
 inline constexpr uint32_t kUseCount = 15;
 
 /// The arrangement of an image's memory that a use asks for.
-enum class Layout : uint8_t
-{
-    Undefined,
-    General,
-    ReadOnly,
-    Attachment,
-    TransferSource,
-    TransferTarget,
-    Present
-};
+enum class Layout : uint8_t { Undefined, General, ReadOnly, Attachment, TransferSource, TransferTarget, Present };
 
 Layout layoutOf(Use use);
 bool writes(Use use);

@@ -24,9 +24,9 @@ uint32_t strongestJoint(const scene::Mesh& mesh, size_t triangle)
                 shares.at(count++) = {influence.joints[k], influence.weights[k]};
         }
     }
-    return std::max_element(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count), [](const auto& a, const auto& b) {
-               return a.second < b.second;
-           })->first;
+    return std::max_element(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
 }
 
 /// The direction of greatest spread, by power iteration on the covariance.

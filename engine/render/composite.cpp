@@ -11,8 +11,10 @@ using graph::Use;
 constexpr gpu::Format kColorFormat = gpu::Format::Rgba16Float;
 
 uint32_t viewOf(ViewMode mode) { return static_cast<uint32_t>(mode); }
-static_assert(static_cast<uint32_t>(ViewMode::Final) == shader::kViewFinal && static_cast<uint32_t>(ViewMode::Reference) == shader::kViewReference);
-static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDifference && static_cast<uint32_t>(ViewMode::Cones) == shader::kViewCones);
+static_assert(static_cast<uint32_t>(ViewMode::Final) == shader::kViewFinal &&
+              static_cast<uint32_t>(ViewMode::Reference) == shader::kViewReference);
+static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDifference &&
+              static_cast<uint32_t>(ViewMode::Cones) == shader::kViewCones);
 
 } // namespace
 

@@ -17,8 +17,8 @@ public:
     explicit CompositeSystem(gpu::Device& device);
 
     /// `occluded` and `reference` may be absent.
-    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
-                     graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance);
+    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g, graph::ImageRef occluded,
+                     graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance);
 
 private:
     gpu::Device* device_;

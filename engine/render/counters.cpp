@@ -17,8 +17,8 @@ void Counters::beginFrame() { std::memcpy(&newest_, readbacks_[device_->frameSlo
 graph::BufferRef Counters::declareClear(graph::FrameGraph& graph)
 {
     graph::Pass pass = graph.add("counters clear");
-    const graph::BufferRef cleared =
-        pass.write(graph.importBuffer("counters", sizeof(shader::CounterBlock), graph::importedBuffer(counters_)), graph::Use::TransferWrite);
+    const graph::BufferRef cleared = pass.write(
+        graph.importBuffer("counters", sizeof(shader::CounterBlock), graph::importedBuffer(counters_)), graph::Use::TransferWrite);
     pass.record([cleared, buffer = counters_.handle()](graph::Recorder& recorder) {
         vkCmdFillBuffer(recorder.commands(), buffer, 0, sizeof(shader::CounterBlock), 0);
     });

@@ -12,10 +12,10 @@ namespace antumbra::render {
 
 struct CameraView
 {
-    vec3 eye{0, 1.6f, 5};                // metres
-    quat rotation{1, 0, 0, 0};           // looks along -Z
+    vec3 eye{0, 1.6f, 5};      // metres
+    quat rotation{1, 0, 0, 0}; // looks along -Z
     float verticalFovRadians = 0.8f;
-    float nearMetres = 0.05f;            // there is no far plane
+    float nearMetres = 0.05f; // there is no far plane
 };
 
 struct EnvironmentView

@@ -49,8 +49,8 @@ GBufferSystem::GBufferSystem(gpu::Device& device)
     textured_ = makePipeline(device, std::span(&textured, 1));
 }
 
-GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                               const Posed& posed, uvec2 extent) const
+GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
+                               uvec2 extent) const
 {
     graph::Pass pass = graph.add("g-buffer");
     if (posed.vertices)
@@ -65,7 +65,8 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
         const auto draw = [&](const DeviceModel& model, const mat4& world, shader::GBufferDraw push, uint32_t flags) {
             push.frame = frame;
             push.flags = flags;
-            recorder.drawIndexed(model.isTextured ? textured_ : plain_, push, model.indices, 3 * model.triangleCount, facesOf(model, world));
+            recorder.drawIndexed(model.isTextured ? textured_ : plain_, push, model.indices, 3 * model.triangleCount,
+                                 facesOf(model, world));
         };
         for (const StaticDraw& each : view.statics) {
             const DeviceModel& model = scene.model(each.model);

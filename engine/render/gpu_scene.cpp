@@ -40,7 +40,8 @@ std::vector<shader::InfluenceBlock> influencesOf(const scene::Mesh& mesh)
     std::vector<shader::InfluenceBlock> blocks;
     blocks.reserve(mesh.influences.size());
     for (const scene::Influence& influence : mesh.influences)
-        blocks.push_back({influence.joints[0] | uint32_t{influence.joints[1]} << 16, influence.joints[2] | uint32_t{influence.joints[3]} << 16,
+        blocks.push_back({influence.joints[0] | uint32_t{influence.joints[1]} << 16,
+                          influence.joints[2] | uint32_t{influence.joints[3]} << 16,
                           {influence.weights[0], influence.weights[1], influence.weights[2], influence.weights[3]}});
     return blocks;
 }
@@ -109,8 +110,8 @@ void GpuScene::makeModel(uint32_t index)
     const auto slot = [&](uint32_t image) { return image == scene::kNoIndex ? shader::kNoImage : slots[image]; };
     std::vector<shader::MaterialBlock> materials;
     for (const scene::Material& m : model.materials) {
-        materials.push_back({m.albedo, m.alphaCutoff, m.alpha, m.roughness, m.metallic, m.specular, slot(m.albedoImage),
-                             slot(m.metallicRoughnessImage)});
+        materials.push_back(
+            {m.albedo, m.alphaCutoff, m.alpha, m.roughness, m.metallic, m.specular, slot(m.albedoImage), slot(m.metallicRoughnessImage)});
         made.isTwoSided |= m.twoSided;
         made.isTextured |= m.albedoImage != scene::kNoIndex || m.alphaCutoff > 0.0f;
     }

@@ -26,8 +26,9 @@ float greatestScale(const mat4& matrix)
     // The Frobenius norm bounds the spectral norm, exactly so for a uniform scale once divided by sqrt(3); columns are safe for shears too.
     const mat3 linear(matrix);
     const float columns = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-    const bool isOrthogonal = std::abs(glm::dot(linear[0], linear[1])) + std::abs(glm::dot(linear[1], linear[2])) +
-                                  std::abs(glm::dot(linear[2], linear[0])) < 1e-5f * columns * columns;
+    const bool isOrthogonal =
+        std::abs(glm::dot(linear[0], linear[1])) + std::abs(glm::dot(linear[1], linear[2])) + std::abs(glm::dot(linear[2], linear[0])) <
+        1e-5f * columns * columns;
     return isOrthogonal ? columns
                         : std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
 }
@@ -99,7 +100,8 @@ void PosingSystem::declareSkinning(graph::FrameGraph& graph, const FrameView& vi
             const DeviceCharacter& character = scene.character(draw.slot);
             const uint32_t vertexCount = scene.model(draw.model).vertexCount;
             const VkDeviceAddress joints = frameCopy(*device_, std::span(view.joints).subspan(draw.firstJoint, skin.jointCount));
-            const VkDeviceAddress weights = frameCopy(*device_, std::span(view.morphWeights).subspan(draw.firstMorphWeight, skin.morphCount));
+            const VkDeviceAddress weights =
+                frameCopy(*device_, std::span(view.morphWeights).subspan(draw.firstMorphWeight, skin.morphCount));
             recorder.dispatch(skinning_,
                               shader::SkinningDispatch{skin.bindPositions.address(), skin.bindNormals.address(), skin.influences.address(),
                                                        joints, skin.morphs.address(), skin.morphOffsets.address(), weights,
@@ -185,13 +187,14 @@ void PosingSystem::declareBounds(graph::FrameGraph& graph, const FrameView& view
             const CharacterDraw& draw = view.characters[i];
             const DeviceCharacter& character = scene.character(draw.slot);
             const uint32_t capsuleCount = scene.skin(draw.model).boneCount;
-            const shader::BlockerSource source{draw.world, character.sphere.address(), character.capsules.address(), firstCapsule,
-                                               capsuleCount, greatestScale(draw.world), 0};
+            const shader::BlockerSource source{
+                draw.world, character.sphere.address(), character.capsules.address(), firstCapsule, capsuleCount, greatestScale(draw.world),
+                0};
             std::memcpy(bytes.mapped + i * sizeof(source), &source, sizeof(source));
             firstCapsule += capsuleCount;
         }
-        recorder.dispatch(blockers_, shader::BlockerDispatch{bytes.address, scene.blockers().address(), scene.capsules().address()}, {count, 1},
-                          {1, 1});
+        recorder.dispatch(blockers_, shader::BlockerDispatch{bytes.address, scene.blockers().address(), scene.capsules().address()},
+                          {count, 1}, {1, 1});
     });
 }
 

@@ -14,12 +14,13 @@ namespace {
 using graph::ImageRef;
 using graph::Use;
 
-constexpr std::array<std::string_view, kAovCount> kAovNames{"color",    "irradiance", "unshadowed", "occluded",
-                                                            "albedo",   "normal",     "depth",      "cones"};
+constexpr std::array<std::string_view, kAovCount> kAovNames{"color",  "irradiance", "unshadowed", "occluded",
+                                                            "albedo", "normal",     "depth",      "cones"};
 
 gpu::Image makePicture(gpu::Device& device, uvec2 extent)
 {
-    return {device, "picture",
+    return {device,
+            "picture",
             {.format = gpu::Format::Rgba8Unorm,
              .extent = extent,
              .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
@@ -38,7 +39,8 @@ void declarePresent(graph::FrameGraph& graph, ImageRef picture, const gpu::Image
 {
     graph::Pass pass = graph.add("present");
     pass.read(picture, Use::TransferRead);
-    const ImageRef screen = graph.import("window", {.format = window.info().format, .extent = window.info().extent}, graph::importedImage(window), {});
+    const ImageRef screen =
+        graph.import("window", {.format = window.info().format, .extent = window.info().extent}, graph::importedImage(window), {});
     const ImageRef shown = pass.write(screen, Use::TransferWrite);
     pass.record([picture, shown](graph::Recorder& recorder) {
         const gpu::Image& from = recorder.image(picture);
@@ -136,7 +138,8 @@ void Renderer::declareCapture(Aov aov, ImageRef image)
 
     graph::Pass pass = graph_.add("capture");
     pass.read(image, Use::TransferRead);
-    const graph::BufferRef target = pass.write(graph_.importBuffer("readback", bytes, graph::importedBuffer(readback.buffer)), Use::TransferWrite);
+    const graph::BufferRef target =
+        pass.write(graph_.importBuffer("readback", bytes, graph::importedBuffer(readback.buffer)), Use::TransferWrite);
     pass.record([image, handle = readback.buffer.handle()](graph::Recorder& recorder) { copyToBuffer(recorder, image, handle); });
     graph_.output(target, Use::HostRead);
 }
@@ -210,8 +213,9 @@ scene::ImageF Renderer::captured(Aov aov)
 {
     device_->waitIdle();
     const Readback& readback = readbacks_[static_cast<uint32_t>(aov)];
-    check(static_cast<bool>(readback.buffer), "an AOV that was captured before");
     const uint32_t channels = aov == Aov::Depth || aov == Aov::Cones ? 1 : 3;
+    if (!readback.buffer) // nothing of the kind in the frame: no character, nothing occluded
+        return {extent().x, extent().y, channels, std::vector<float>(size_t{channels} * extent().x * extent().y, 0.0f)};
     scene::ImageF image{readback.extent.x, readback.extent.y, channels, {}};
     const size_t stride = gpu::bytesPerPixel(readback.format);
     for (size_t i = 0; i < size_t{image.width} * image.height; ++i) {

@@ -26,9 +26,9 @@ std::optional<Aov> aovOf(std::string_view name);
 /// What the newest finished frame did.
 struct FrameReport
 {
-    std::span<const graph::PassTime> passes;      // in order
-    std::span<const graph::AbsentPass> absent;    // of the newest plan: culled and skipped, with reasons
-    std::optional<double> frameMilliseconds;      // first pass to last
+    std::span<const graph::PassTime> passes;   // in order
+    std::span<const graph::AbsentPass> absent; // of the newest plan: culled and skipped, with reasons
+    std::optional<double> frameMilliseconds;   // first pass to last
     shader::CounterBlock counters;
     uint64_t frame = 0; // frames finished so far
 };
@@ -36,7 +36,7 @@ struct FrameReport
 struct MemoryReport
 {
     uint64_t reserved = 0, used = 0, transient = 0, history = 0; // bytes
-    uint64_t allocationsEver = 0; // device ranges handed out since the start
+    uint64_t allocationsEver = 0;                                // device ranges handed out since the start
 };
 
 class Renderer
@@ -53,7 +53,7 @@ public:
 
     /// The next frame keeps these; read them with captured() after it.
     void capture(std::span<const Aov> aovs);
-    /// Wait for the device. Rows from the top.
+    /// Wait for the device. Rows from the top. An AOV that the frame did not make is zero everywhere.
     [[nodiscard]] scene::Image8 picture();
     [[nodiscard]] scene::ImageF captured(Aov aov);
 
@@ -93,9 +93,9 @@ private:
     graph::FrameGraph graph_;
     graph::Plan plan_;
     graph::Executor executor_;
-    gpu::Image picture_; // Rgba8Unorm, sRGB-encoded
-    uint32_t captures_ = 0;  // bits of Aov
-    float nearMetres_ = 0;   // of the newest frame, for reading depth back
+    gpu::Image picture_;    // Rgba8Unorm, sRGB-encoded
+    uint32_t captures_ = 0; // bits of Aov
+    float nearMetres_ = 0;  // of the newest frame, for reading depth back
     Readback readbacks_[kAovCount];
 };
 

@@ -6,7 +6,8 @@ namespace antumbra::render {
 
 TonemapSystem::TonemapSystem(gpu::Device& device) : pipeline_(computePipeline(device, "tonemap.comp")) {}
 
-graph::ImageRef TonemapSystem::declare(graph::FrameGraph& graph, const FrameView& view, graph::ImageRef color, graph::ImageRef picture) const
+graph::ImageRef TonemapSystem::declare(graph::FrameGraph& graph, const FrameView& view, graph::ImageRef color,
+                                       graph::ImageRef picture) const
 {
     graph::Pass pass = graph.add("tone map");
     pass.read(color, graph::Use::Sampled);

@@ -148,23 +148,17 @@ double detailAt(const dvec3& point)
 {
     constexpr double kFaceBegins = 0.055;
     switch (limbAt(point)) {
-    case Head:
-        return point.z > kFaceBegins ? 0.017 : 0.026;
+    case Head: return point.z > kFaceBegins ? 0.017 : 0.026;
     case HandLeft:
-    case HandRight:
-        return 0.0195;
+    case HandRight: return 0.0195;
     case FootLeft:
-    case FootRight:
-        return 0.026;
+    case FootRight: return 0.026;
     case ToesLeft:
-    case ToesRight:
-        return 0.021;
+    case ToesRight: return 0.021;
     case Neck:
     case LowerArmLeft:
-    case LowerArmRight:
-        return 0.031;
-    default:
-        return 0.042;
+    case LowerArmRight: return 0.031;
+    default: return 0.042;
     }
 }
 

@@ -5,14 +5,7 @@
 
 namespace antumbra::character {
 
-enum Cloth : uint32_t
-{
-    Skin,
-    Shirt,
-    Trousers,
-    Leather,
-    kClothCount
-};
+enum Cloth : uint32_t { Skin, Shirt, Trousers, Leather, kClothCount };
 
 /// Metres to the surface, negative inside; exact at the surface to first order.
 double distanceToBody(const dvec3& point);

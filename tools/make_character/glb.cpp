@@ -12,18 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum ComponentType
-{
-    kUint8 = 5121,
-    kUint16 = 5123,
-    kFloat = 5126
-};
-enum Target
-{
-    kNoTarget = 0,
-    kVertices = 34962,
-    kIndices = 34963
-};
+enum ComponentType { kUint8 = 5121, kUint16 = 5123, kFloat = 5126 };
+enum Target { kNoTarget = 0, kVertices = 34962, kIndices = 34963 };
 
 void padTo4(std::vector<std::byte>& bytes, char filling)
 {

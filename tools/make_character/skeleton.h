@@ -13,8 +13,7 @@ using glm::dquat;
 using glm::dvec3;
 
 /// Parents come before children; the right side repeats the left one.
-enum Joint : uint32_t
-{
+enum Joint : uint32_t {
     Hips,
     Spine,
     Chest,
@@ -37,11 +36,7 @@ enum Joint : uint32_t
     kJointCount
 };
 
-enum class Side
-{
-    Left,
-    Right
-};
+enum class Side { Left, Right };
 
 struct JointPlace
 {

@@ -8,7 +8,7 @@ namespace {
 
 using graph::Use;
 
-constexpr uvec2 kTraceGroup{16, 8}; // pixels, as in occlusion_trace.comp
+constexpr uvec2 kTraceGroup{16, 8};                            // pixels, as in occlusion_trace.comp
 constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/traced.glsl
 constexpr gpu::Format kOccludedFormat = gpu::Format::Rgba16Float;
 
@@ -35,8 +35,8 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
     sampleCount_ = knobs.samples;
 }
 
-graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
-                                              const GpuScene& scene, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                              const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
     const auto pixelScale = static_cast<float>(knobs.scale);
@@ -73,8 +73,8 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     return traced;
 }
 
-graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
-                                               const GBuffer& g, graph::ImageRef traced)
+graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
+                                               graph::ImageRef traced)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
     if (knobs.filter == 0) {
@@ -97,8 +97,8 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
     return filtered;
 }
 
-graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
-                                                 const GBuffer& g, graph::ImageRef coarse)
+graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
+                                                 graph::ImageRef coarse)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
     graph::Pass pass = graph.add("occlusion upsample");
@@ -119,8 +119,8 @@ graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const
     return occluded;
 }
 
-graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
-                                         const GpuScene& scene, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                         const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     if (!posed.scene) {
         const std::string_view reason = view.characters.empty() ? "no DynamicSkinned in the scene" : "the device has no ray query";

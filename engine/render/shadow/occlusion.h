@@ -14,13 +14,13 @@ public:
     explicit OcclusionSystem(gpu::Device& device) : device_(&device) {}
 
     /// The occluded irradiance in W/m^2 at the G-buffer's extent, cones a pixel in a; absent where nothing moves.
-    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                            const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
+    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                            const Posed& posed, graph::BufferRef& counters);
 
 private:
     void prepare(const OcclusionKnobs& knobs);
-    graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                 const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
+    graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                                 const Posed& posed, graph::BufferRef& counters);
     graph::ImageRef declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef traced);
     graph::ImageRef declareUpsample(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,

@@ -9,9 +9,9 @@ namespace {
 
 using graph::Use;
 
-constexpr uvec2 kTraceGroup{16, 8};      // pixels, as in occlusion_trace.comp
-constexpr uint32_t kSamplesAFrame = 64;  // small enough to keep a live view usable
-constexpr uint32_t kLiveSamples = 4096;  // where a view asks for the reference and no number is set
+constexpr uvec2 kTraceGroup{16, 8};     // pixels, as in occlusion_trace.comp
+constexpr uint32_t kSamplesAFrame = 64; // small enough to keep a live view usable
+constexpr uint32_t kLiveSamples = 4096; // where a view asks for the reference and no number is set
 constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
 
 /// FNV-1a over the bytes of trivially copyable values.
@@ -52,8 +52,8 @@ uint64_t ReferenceSystem::fingerprint(const FrameView& view, uvec2 extent)
     return print.value();
 }
 
-graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame,
-                                         const GpuScene& scene, const GBuffer& g, const Posed& posed)
+graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                         const GBuffer& g, const Posed& posed)
 {
     const uint32_t wanted = wantedSamples(view.knobs);
     if (wanted == 0 || !posed.scene) {

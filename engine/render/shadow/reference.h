@@ -11,8 +11,8 @@ public:
     explicit ReferenceSystem(gpu::Device& device) : device_(&device) {}
 
     /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
-    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                            const GBuffer& g, const Posed& posed);
+    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                            const Posed& posed);
     /// Accumulated for the view as it stands.
     [[nodiscard]] uint32_t samples() const { return frames_ * samplesAFrame_; }
 
