@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
+#include <unistd.h>
 
 namespace antumbra::app {
 namespace {
@@ -19,7 +20,7 @@ protected:
     /// A file of these cases; it stays until the next test.
     static Path written(const std::string& text)
     {
-        const Path file = Path(testing::TempDir()) / "antumbra_cases.json";
+        const Path file = Path(testing::TempDir()) / ("antumbra_cases_" + std::to_string(getpid()) + ".json");
         writeText(file, text);
         return file;
     }

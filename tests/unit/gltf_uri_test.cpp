@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <sys/stat.h>
+#include <unistd.h>
 
 using namespace antumbra;
 using namespace antumbra::scene;
@@ -20,7 +21,7 @@ class GltfUri : public testing::Test
 protected:
     void SetUp() override
     {
-        root_ = Path(testing::TempDir()) / "antumbra_uri";
+        root_ = Path(testing::TempDir()) / ("antumbra_uri_" + std::to_string(getpid()));
         std::filesystem::remove_all(root_);
         std::filesystem::create_directories(root_ / "home/deep");
         writeText(root_ / "secret.bin", "secret");

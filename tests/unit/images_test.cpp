@@ -7,13 +7,14 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <unistd.h>
 
 using namespace antumbra;
 using namespace antumbra::scene;
 
 namespace {
 
-Path temporary(const std::string& name) { return Path(testing::TempDir()) / ("antumbra_images_" + name); }
+Path temporary(const std::string& name) { return Path(testing::TempDir()) / ("antumbra_images_" + std::to_string(getpid()) + "_" + name); }
 
 Image8 checkered(uint32_t width, uint32_t height)
 {

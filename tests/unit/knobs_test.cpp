@@ -126,7 +126,7 @@ TEST(Knobs, RefusedValueChangesNothing)
     Knobs knobs;
     set(knobs, "occlusion.samples", "64");
     EXPECT_THROW(set(knobs, "occlusion.samples", "65"), Error);
-    EXPECT_EQ(knobs.occlusion.samples, 32u);
+    EXPECT_EQ(knobs.occlusion.samples, 64u);
 }
 
 TEST(Knobs, CommandLineOverridesSceneFileOverridesDevice)

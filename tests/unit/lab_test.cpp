@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <random>
+#include <unistd.h>
 
 namespace antumbra::app {
 namespace {
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 
 Sweep sweepOf(const std::string& text)
 {
-    const Path file = Path(testing::TempDir()) / "antumbra_lab_test.json";
+    const Path file = Path(testing::TempDir()) / ("antumbra_lab_" + std::to_string(getpid()) + ".json");
     writeText(file, text);
     return loadSweep(file);
 }

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace {
 
@@ -51,7 +52,7 @@ struct Populated
 
 SceneFile sceneOf(const std::string& text)
 {
-    const Path folder = Path(testing::TempDir()) / "antumbra_populate_test";
+    const Path folder = Path(testing::TempDir()) / ("antumbra_populate_" + std::to_string(getpid()));
     writeText(folder / "scene.json", text);
     return loadScene(folder / "scene.json");
 }

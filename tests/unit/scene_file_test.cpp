@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <unistd.h>
 
 namespace {
 
@@ -13,7 +14,7 @@ using namespace antumbra::scene;
 
 Path fileWith(const std::string& text)
 {
-    const Path file = Path(testing::TempDir()) / "antumbra_scene_file_test.json";
+    const Path file = Path(testing::TempDir()) / ("antumbra_scene_" + std::to_string(getpid()) + ".json");
     writeText(file, text);
     return file;
 }
@@ -197,7 +198,7 @@ TEST(SceneFile, ParentsAreFoundByNameInAnyOrder)
 
 TEST(SceneFile, UnknownKeysNameTheNearestKnownOne)
 {
-    expectFault(faultOf(R"({"entites": []})"), {"antumbra_scene_file_test.json", "\"entites\"", "\"entities\""});
+    expectFault(faultOf(R"({"entites": []})"), {("antumbra_scene_" + std::to_string(getpid()) + ".json"), "\"entites\"", "\"entities\""});
     expectFault(faultOf(R"({"camera": {"vfov": 60}})"), {"camera", "\"vfov\"", "\"vfov_deg\""});
     expectFault(faultOfEntity(R"({"transform": {"postion": [0, 0, 0]}})"), {"entities[0].transform", "\"postion\"", "\"position\""});
     expectFault(faultOfEntity(R"({"Dynamicskinned": {}})"), {"\"DynamicSkinned\""});
@@ -248,7 +249,7 @@ TEST(SceneFile, ValuesHaveTypesAndRanges)
 
 TEST(SceneFile, TextThatIsNotJsonIsOneLineWithThePlace)
 {
-    expectFault(faultOf("{\n  \"camera\": {,}\n}"), {"antumbra_scene_file_test.json", "line 2, column"});
+    expectFault(faultOf("{\n  \"camera\": {,}\n}"), {("antumbra_scene_" + std::to_string(getpid()) + ".json"), "line 2, column"});
     expectFault(faultOf(""), {"line 1"});
     expectFault(faultOf("{\"camera\": {\"vfov_deg\": 1e999}}"), {"1e999"});
     expectFault(faultOf("{\"a\": \"\xff\"}"), {"UTF-8"});
