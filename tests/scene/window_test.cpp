@@ -141,7 +141,7 @@ TEST_F(WindowTest, PlaysByRealKeysAndIsResized)
     EXPECT_GT(colorsIn(last, {0, 0}, {400, 240}), 500u);
     // The window fills its new size, and nothing of it lies beside.
     EXPECT_GT(colorsIn(seen, {0, 0}, {400, 240}), 500u);
-    EXPECT_GT(colorsIn(seen, {330, 190}, {400, 240}), 20u);
+    EXPECT_GT(colorsIn(seen, {330, 190}, {400, 240}), 8u); // an even floor in soft light: few colours, but a blank has one or two
     EXPECT_LE(colorsIn(seen, {410, 250}, {800, 600}), 2u);
 }
 
