@@ -3,10 +3,15 @@
 #include "lib/bindless.glsl"
 #include "lib/frame.glsl"
 #include "shared/composite.h"
+#include "lib/tone.glsl"
 
 layout(push_constant, scalar) uniform Push { Sky pc; };
 
-layout(location = 0) out vec4 outColor;
+// Variant KEEPS_COLOR: the radiance is asked for beside the picture.
+layout(location = 0) out vec4 outPicture;
+#ifdef KEEPS_COLOR
+layout(location = 1) out vec4 outColor;
+#endif
 
 const float kInversePi = 0.3183098861837907;
 
@@ -19,5 +24,9 @@ void main()
     d = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
     vec2 uv = vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInversePi), acos(clamp(d.y, -1.0, 1.0)) * kInversePi);
     vec3 radiance = textureLod(sampler2D(sampledImages[frameBlock.environment], samplers[kLinearWrapU]), uv, 0.0).rgb;
-    outColor = vec4(radiance * frameBlock.environmentIntensity, 0.0);
+    radiance *= frameBlock.environmentIntensity;
+    outPicture = vec4(srgbEncoded(toneMapped(radiance * pc.exposure)), 1.0);
+#ifdef KEEPS_COLOR
+    outColor = vec4(radiance, 0.0);
+#endif
 }

@@ -1,14 +1,14 @@
 #include "render/composite.h"
 
-#include <array>
-
 namespace antumbra::render {
 
 namespace {
 
+using graph::ImageRef;
 using graph::Use;
 
-constexpr gpu::Format kColorFormat = gpu::Format::Rgba16Float;
+constexpr gpu::Format kPictureFormat = gpu::Format::Rgba8Unorm;
+constexpr gpu::Format kKeptFormat = gpu::Format::Rgba16Float;
 
 uint32_t viewOf(ViewMode mode) { return static_cast<uint32_t>(mode); }
 static_assert(static_cast<uint32_t>(ViewMode::Final) == shader::kViewFinal &&
@@ -18,41 +18,60 @@ static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDiffer
 
 } // namespace
 
-CompositeSystem::CompositeSystem(gpu::Device& device) : device_(&device), final_(computePipeline(device, "composite.comp"))
+const gpu::Pipeline& CompositeSystem::composition(bool isOccluded, bool explains)
 {
-    constexpr std::array formats{kColorFormat};
-    sky_ = rasterPipeline(device, {.vertexShader = "sky.vert",
-                                   .fragmentShader = "sky.frag",
-                                   .colorFormats = formats,
-                                   .depthFormat = gpu::Format::Depth32Float,
-                                   .writesDepth = false});
+    gpu::Pipeline& pipeline = compositions_[(isOccluded ? 1u : 0u) + (explains ? 2u : 0u)];
+    if (!pipeline) {
+        std::vector<gpu::ShaderDefine> defines;
+        if (isOccluded)
+            defines.push_back({"OCCLUDED"});
+        if (explains)
+            defines.push_back({"EXPLAINS"});
+        pipeline = computePipeline(*device_, "composite.comp", defines);
+    }
+    return pipeline;
 }
 
-Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
-                                  graph::ImageRef occluded, graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance)
+const gpu::Pipeline& CompositeSystem::sky(bool keepsColor)
 {
-    const bool explains = view.knobs.view != ViewMode::Final;
-    if (explains && !explaining_) {
-        constexpr gpu::ShaderDefine define{"EXPLAINS"};
-        explaining_ = computePipeline(*device_, "composite.comp", std::span(&define, 1));
+    gpu::Pipeline& pipeline = skies_[keepsColor ? 1 : 0];
+    if (!pipeline) {
+        constexpr std::array formats{kPictureFormat, kKeptFormat};
+        constexpr gpu::ShaderDefine define{"KEEPS_COLOR"};
+        pipeline = rasterPipeline(*device_, {.vertexShader = "sky.vert",
+                                             .fragmentShader = "sky.frag",
+                                             .defines = std::span(&define, keepsColor ? 1 : 0),
+                                             .colorFormats = std::span(formats).first(keepsColor ? 2 : 1),
+                                             .depthFormat = gpu::Format::Depth32Float,
+                                             .writesDepth = false});
     }
-    const gpu::Pipeline& pipeline = explains ? explaining_ : final_;
-    graph::Pass pass = graph.add("composite");
-    for (const graph::ImageRef image : {g.depth, g.normals, g.albedo, g.unshadowed})
-        pass.read(image, Use::Sampled);
-    if (occluded)
-        pass.read(occluded, Use::Sampled);
-    if (reference)
-        pass.read(reference, Use::Sampled);
-    counters = pass.write(counters, Use::StorageWrite);
-    const graph::ImageDesc desc{.format = kColorFormat, .like = g.depth};
-    Composed composed;
-    composed.color = pass.create("color", desc, Use::StorageWrite);
-    if (wantsIrradiance)
-        composed.irradiance = pass.create("irradiance", desc, Use::StorageWrite);
+    return pipeline;
+}
 
-    pass.record([&pipeline, &view, frame, g, occluded, reference, composed, counted = counters](graph::Recorder& recorder) {
-        const auto slot = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNoOcclusion; };
+Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g, const Traced& traced,
+                                  ImageRef reference, ImageRef picture, Kept kept, graph::BufferRef& counters)
+{
+    const bool explains = view.knobs.view != ViewMode::Final || kept.any() || reference;
+    graph::Pass pass = graph.add("composite");
+    for (const ImageRef image : {g.depth, g.normals, g.albedo, g.unshadowed})
+        pass.read(image, Use::Sampled);
+    for (const ImageRef image : {traced.pixels, reference})
+        if (image)
+            pass.read(image, Use::Sampled);
+    counters = pass.write(counters, Use::StorageWrite);
+    const auto create = [&](bool isKept, std::string_view name) {
+        return isKept ? pass.create(name, {.format = kKeptFormat, .like = g.depth}, Use::StorageWrite) : ImageRef{};
+    };
+    Composed composed{.picture = pass.write(picture, Use::StorageWrite),
+                      .color = create(kept.color, "color"),
+                      .irradiance = create(kept.irradiance, "irradiance"),
+                      .occluded = create(kept.occluded, "occluded")};
+
+    const gpu::Pipeline& pipeline = composition(static_cast<bool>(traced.pixels), explains);
+    pass.record([&pipeline, &view, frame, g, traced, reference, composed, counted = counters](graph::Recorder& recorder) {
+        const auto sampled = [&](ImageRef image) { return image ? recorder.sampled(image) : shader::kAbsent; };
+        const auto storage = [&](ImageRef image) { return image ? recorder.storage(image) : shader::kAbsent; };
+        const uint32_t scale = traced.pixelScale;
         recorder.dispatch(pipeline,
                           shader::Composite{.counters = recorder.address(counted),
                                             .frame = frame,
@@ -60,20 +79,29 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .normals = recorder.sampled(g.normals),
                                             .albedo = recorder.sampled(g.albedo),
                                             .unshadowed = recorder.sampled(g.unshadowed),
-                                            .occluded = slot(occluded),
-                                            .reference = slot(reference),
-                                            .color = recorder.storage(composed.color),
-                                            .irradiance = composed.irradiance ? recorder.storage(composed.irradiance) : 0,
+                                            .traced = sampled(traced.pixels),
+                                            .pixelScale = static_cast<int>(scale),
+                                            .lastTraced = traced.pixels ? ivec2(recorder.extent(traced.pixels)) - 1 : ivec2(0),
+                                            .reference = sampled(reference),
+                                            .isReferenceShown = view.knobs.reference.samples > 0 && view.knobs.view == ViewMode::Final,
+                                            .picture = recorder.storage(composed.picture),
+                                            .exposure = view.exposure,
+                                            .color = storage(composed.color),
+                                            .irradiance = storage(composed.irradiance),
+                                            .occluded = storage(composed.occluded),
                                             .view = viewOf(view.knobs.view),
-                                            .splitX = view.splitColumn,
-                                            .hasIrradiance = composed.irradiance ? 1u : 0u},
-                          recorder.extent(composed.color));
+                                            .splitX = view.splitColumn},
+                          recorder.extent(composed.picture) / scale + 2u);
     });
 
     graph::Pass sky = graph.add("sky");
     sky.read(g.depth, Use::DepthRead);
-    composed.color = sky.write(composed.color, Use::ColorAttachment);
-    sky.record([this, frame](graph::Recorder& recorder) { recorder.draw(sky_, shader::Sky{.frame = frame}, 3); });
+    composed.picture = sky.write(composed.picture, Use::ColorAttachment);
+    if (kept.color)
+        composed.color = sky.write(composed.color, Use::ColorAttachment);
+    sky.record([&drawn = this->sky(kept.color), frame, exposure = view.exposure](graph::Recorder& recorder) {
+        recorder.draw(drawn, shader::Sky{.frame = frame, .exposure = exposure}, 3);
+    });
     return composed;
 }
 

@@ -1,30 +1,45 @@
-// First term minus occluded irradiance, times albedo over pi; the environment behind it; and the views that explain the picture.
+// From the G-buffer and what hides its light to the picture: first term minus occluded irradiance, tone mapping (Khronos PBR Neutral,
+// sRGB), the environment behind it all, and the views that explain it.
 #pragma once
 
-#include "render/gbuffer.h"
+#include "render/shadow/occlusion.h"
+
+#include <array>
 
 namespace antumbra::render {
 
+/// What is to be kept beside the picture.
+struct Kept
+{
+    bool color = false, irradiance = false, occluded = false;
+
+    [[nodiscard]] bool any() const { return color || irradiance || occluded; }
+};
+
 struct Composed
 {
-    graph::ImageRef color;      // W/(m^2 sr)
-    graph::ImageRef irradiance; // W/m^2; absent unless asked for
+    graph::ImageRef picture;
+    graph::ImageRef color;      // W/(m^2 sr); these three absent unless kept
+    graph::ImageRef irradiance; // W/m^2
+    graph::ImageRef occluded;   // W/m^2; a: cones
 };
 
 class CompositeSystem
 {
 public:
-    explicit CompositeSystem(gpu::Device& device);
+    explicit CompositeSystem(gpu::Device& device) : device_(&device) {}
 
-    /// `occluded` and `reference` may be absent.
-    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g, graph::ImageRef occluded,
-                     graph::ImageRef reference, graph::BufferRef& counters, bool wantsIrradiance);
+    /// Writes `picture`. `traced` and `reference` may be absent.
+    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g, const Traced& traced,
+                     graph::ImageRef reference, graph::ImageRef picture, Kept kept, graph::BufferRef& counters);
 
 private:
+    const gpu::Pipeline& composition(bool isOccluded, bool explains);
+    const gpu::Pipeline& sky(bool keepsColor);
+
     gpu::Device* device_;
-    gpu::Pipeline final_;
-    gpu::Pipeline explaining_; // made when a view first asks for it
-    gpu::Pipeline sky_;
+    std::array<gpu::Pipeline, 4> compositions_; // each made when first asked for
+    std::array<gpu::Pipeline, 2> skies_;
 };
 
 } // namespace antumbra::render

@@ -112,8 +112,7 @@ std::optional<Aov> aovOf(std::string_view name)
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent)
     : device_(&device), scene_(device, assets), blocks_(device, assets), gbuffer_(device), posing_(device), occlusion_(device),
-      reference_(device), composite_(device), tonemap_(device), overlay_(device), counters_(device), executor_(device),
-      picture_(makePicture(device, extent))
+      reference_(device), composite_(device), overlay_(device), counters_(device), executor_(device), picture_(makePicture(device, extent))
 {
 }
 
@@ -125,7 +124,7 @@ void Renderer::resize(uvec2 extent)
 
 void Renderer::declareCapture(Aov aov, ImageRef image)
 {
-    if ((captures_ >> static_cast<uint32_t>(aov) & 1u) == 0 || !image)
+    if (!isCaptured(aov) || !image)
         return;
     const graph::Resource& resource = graph_.resources()[image.index];
     const uvec2 extent = graph_.extent(image);
@@ -154,24 +153,24 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
 
     const Posed posed = posing_.declare(graph_, view, scene_);
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, posed, extent());
-    ImageRef occluded = occlusion_.declare(graph_, view, frame, scene_, g, posed, counters);
+    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, g, posed, counters);
     const ImageRef reference = reference_.declare(graph_, view, frame, scene_, g, posed);
-    if (view.knobs.reference.samples > 0 && view.knobs.view == ViewMode::Final)
-        occluded = reference;
-    const bool wantsIrradiance = (captures_ >> static_cast<uint32_t>(Aov::Irradiance) & 1u) != 0;
-    const Composed lit = composite_.declare(graph_, view, frame, g, occluded, reference, counters, wantsIrradiance);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});
-    const ImageRef picture = overlay_.declare(graph_, tonemap_.declare(graph_, view, lit.color, blank));
+    const Kept kept{.color = isCaptured(Aov::Color),
+                    .irradiance = isCaptured(Aov::Irradiance),
+                    .occluded = isCaptured(Aov::Occluded) || isCaptured(Aov::Cones)};
+    const Composed composed = composite_.declare(graph_, view, frame, g, traced, reference, blank, kept, counters);
+    const ImageRef picture = overlay_.declare(graph_, composed.picture);
 
-    declareCapture(Aov::Color, lit.color);
-    declareCapture(Aov::Irradiance, lit.irradiance);
+    declareCapture(Aov::Color, composed.color);
+    declareCapture(Aov::Irradiance, composed.irradiance);
     declareCapture(Aov::Unshadowed, g.unshadowed);
-    declareCapture(Aov::Occluded, occluded);
+    declareCapture(Aov::Occluded, composed.occluded);
     declareCapture(Aov::Albedo, g.albedo);
     declareCapture(Aov::Normal, g.normals);
     declareCapture(Aov::Depth, g.depth);
-    declareCapture(Aov::Cones, occluded);
+    declareCapture(Aov::Cones, composed.occluded);
     counters_.declareReadback(graph_, counters);
     graph_.output(picture, Use::TransferRead);
     if (window != nullptr)

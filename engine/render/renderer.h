@@ -10,7 +10,6 @@
 #include "render/posing.h"
 #include "render/shadow/occlusion.h"
 #include "render/shadow/reference.h"
-#include "render/tonemap.h"
 
 #include <optional>
 #include <string_view>
@@ -77,6 +76,7 @@ private:
         uvec2 extent{0};
     };
 
+    [[nodiscard]] bool isCaptured(Aov aov) const { return (captures_ >> static_cast<uint32_t>(aov) & 1u) != 0; }
     void declareCapture(Aov aov, graph::ImageRef image);
 
     gpu::Device* device_;
@@ -87,7 +87,6 @@ private:
     OcclusionSystem occlusion_;
     ReferenceSystem reference_;
     CompositeSystem composite_;
-    TonemapSystem tonemap_;
     Overlay overlay_;
     Counters counters_;
     graph::FrameGraph graph_;

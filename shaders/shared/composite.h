@@ -23,7 +23,7 @@ const uint kViewCones = 4u;
 const uint kViewNormals = 5u;
 const uint kViewReference = 6u;
 
-const uint kNoOcclusion = 0xffffffffu;
+const uint kAbsent = 0xffffffffu; // a slot of nothing
 
 struct Composite
 {
@@ -33,24 +33,23 @@ struct Composite
     uint normals;
     uint albedo;
     uint unshadowed;
-    uint occluded; // kNoOcclusion: nothing moves
-    uint reference; // kNoOcclusion: none
-    uint color; // written
-    uint irradiance; // written
+    uint traced; // traced pixels of the occluded irradiance
+    int pixelScale; // of their image to the G-buffer: 1, 2, 4
+    ivec2 lastTraced;
+    uint reference; // kAbsent: none
+    uint isReferenceShown; // in place of what was traced
+    uint picture; // written
+    float exposure;
+    uint color; // these three written where not kAbsent: W/(m^2 sr),
+    uint irradiance; // W/m^2,
+    uint occluded; // W/m^2 and cones a pixel
     uint view;
     uint splitX; // columns left of it show the final picture, the rest `view`
-    uint hasIrradiance; // 0: `irradiance` is not asked for
 };
 
 struct Sky
 {
     uint frame; // slot of a FrameBlock
-};
-
-struct Tonemap
-{
-    uint color;
-    uint picture;
     float exposure;
 };
 

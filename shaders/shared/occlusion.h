@@ -73,16 +73,6 @@ struct OcclusionFilter
     uvec2 lastPixel; // of the G-buffer
 };
 
-struct OcclusionUpsample
-{
-    uint frame; // slot of a FrameBlock
-    uint depth;
-    uint normals;
-    uint coarse;
-    uint occluded;
-    float pixelScale;
-};
-
 const uint kNothingTraced = 0xffffffffu;
 
 struct ReferenceAccumulate

@@ -12,7 +12,7 @@ using testing::IsSupersetOf;
 using testing::Not;
 
 const std::vector<std::string> kPassesOfMotion{"skinning",        "triangle builds",  "scene build",       "bounds",
-                                               "occlusion trace", "occlusion filter", "occlusion upsample"};
+                                               "occlusion trace", "occlusion filter"};
 
 class AbsenceTest : public DeviceTest
 {

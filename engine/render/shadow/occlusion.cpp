@@ -10,7 +10,6 @@ using graph::Use;
 
 constexpr uvec2 kTraceGroup{16, 8};                            // pixels, as in occlusion_trace.comp
 constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/traced.glsl
-constexpr gpu::Format kOccludedFormat = gpu::Format::Rgba16Float;
 
 } // namespace
 
@@ -23,8 +22,6 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
     }
     if (knobs.filter > 0 && !filter_)
         filter_ = computePipeline(*device_, "occlusion_filter.comp");
-    if (!upsample_)
-        upsample_ = computePipeline(*device_, "occlusion_upsample.comp");
     if (sampleCount_ == knobs.samples && (masks_ || knobs.culling != Culling::Bones))
         return;
     const std::vector<vec4> samples = hemisphereSamples(knobs.samples);
@@ -97,34 +94,12 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
     return filtered;
 }
 
-graph::ImageRef OcclusionSystem::declareUpsample(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
-                                                 graph::ImageRef coarse)
-{
-    const OcclusionKnobs& knobs = view.knobs.occlusion;
-    graph::Pass pass = graph.add("occlusion upsample");
-    pass.read(g.depth, Use::Sampled);
-    pass.read(g.normals, Use::Sampled);
-    pass.read(coarse, Use::Sampled);
-    const graph::ImageRef occluded = pass.create("occluded", {.format = kOccludedFormat, .like = g.depth}, Use::StorageWrite);
-    pass.record([this, &knobs, frame, g, coarse, occluded](graph::Recorder& recorder) {
-        recorder.dispatch(upsample_,
-                          shader::OcclusionUpsample{.frame = frame,
-                                                    .depth = recorder.sampled(g.depth),
-                                                    .normals = recorder.sampled(g.normals),
-                                                    .coarse = recorder.sampled(coarse),
-                                                    .occluded = recorder.storage(occluded),
-                                                    .pixelScale = static_cast<float>(knobs.scale)},
-                          recorder.extent(occluded));
-    });
-    return occluded;
-}
-
-graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                         const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                                const Posed& posed, graph::BufferRef& counters)
 {
     if (!posed.scene) {
         const std::string_view reason = view.characters.empty() ? "no DynamicSkinned in the scene" : "the device has no ray query";
-        for (const std::string_view pass : {"occlusion trace", "occlusion filter", "occlusion upsample"})
+        for (const std::string_view pass : {"occlusion trace", "occlusion filter"})
             graph.skip(pass, reason);
         return {};
     }
@@ -132,7 +107,7 @@ graph::ImageRef OcclusionSystem::declare(graph::FrameGraph& graph, const FrameVi
         graph.skip("occlusion trace, compute-bvh", "not there yet: ray queries trace instead");
     prepare(view.knobs.occlusion);
     const graph::ImageRef traced = declareTrace(graph, view, frame, scene, g, posed, counters);
-    return declareUpsample(graph, view, frame, g, declareFilter(graph, view, frame, g, traced));
+    return {declareFilter(graph, view, frame, g, traced), static_cast<uint32_t>(view.knobs.occlusion.scale)};
 }
 
 } // namespace antumbra::render

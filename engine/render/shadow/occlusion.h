@@ -8,14 +8,20 @@
 
 namespace antumbra::render {
 
+/// Occluded irradiance in W/m^2 where it was traced, with the surface it belongs to (lib/traced.glsl).
+struct Traced
+{
+    graph::ImageRef pixels;  // absent where nothing moves
+    uint32_t pixelScale = 1; // of the image to the G-buffer: 1, 2, 4
+};
+
 class OcclusionSystem
 {
 public:
     explicit OcclusionSystem(gpu::Device& device) : device_(&device) {}
 
-    /// The occluded irradiance in W/m^2 at the G-buffer's extent, cones a pixel in a; absent where nothing moves.
-    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                            const Posed& posed, graph::BufferRef& counters);
+    Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                   const Posed& posed, graph::BufferRef& counters);
 
 private:
     void prepare(const OcclusionKnobs& knobs);
@@ -23,12 +29,10 @@ private:
                                  const Posed& posed, graph::BufferRef& counters);
     graph::ImageRef declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef traced);
-    graph::ImageRef declareUpsample(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
-                                    graph::ImageRef coarse);
 
     gpu::Device* device_;
     std::array<gpu::Pipeline, 4> trace_; // by Culling, each made when first asked for
-    gpu::Pipeline filter_, upsample_;
+    gpu::Pipeline filter_;
     gpu::Buffer samples_, masks_;
     uint32_t sampleCount_ = 0; // of both
 };
