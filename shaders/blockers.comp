@@ -21,8 +21,8 @@ void main()
     float scale = 1.001 * source.scale;
     for (uint c = gl_LocalInvocationIndex; c < source.capsuleCount; c += 32u) {
         CapsuleBlock capsule = InCapsules(source.capsules).block[c];
-        capsule.a = vec3(source.worldFromLocal * vec4(capsule.a, 1.0));
-        capsule.b = vec3(source.worldFromLocal * vec4(capsule.b, 1.0));
+        capsule.middle = vec3(source.worldFromLocal * vec4(capsule.middle, 1.0));
+        capsule.arm = mat3(source.worldFromLocal) * capsule.arm;
         capsule.radius *= scale;
         capsule.reach *= scale;
         Capsules(pc.capsules).block[source.firstCapsule + c] = capsule;

@@ -39,6 +39,6 @@ void main()
     // A thousandth more covers the rounding of this and of every test against it.
     if (gl_LocalInvocationIndex == 0u) {
         float radius = 1.001 * sqrt(greatest[0]) + 1.0e-6;
-        Capsules(pc.capsules).block[gl_WorkGroupID.x] = CapsuleBlock(a, radius, b, radius + 0.5005 * length(ab));
+        Capsules(pc.capsules).block[gl_WorkGroupID.x] = CapsuleBlock(0.5 * (a + b), radius, 0.5 * ab, radius + 0.5005 * length(ab));
     }
 }

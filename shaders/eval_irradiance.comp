@@ -9,7 +9,7 @@
 #include "lib/intersect.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Cases { IrradianceCase block[]; };
-layout(buffer_reference, scalar) readonly buffer Samples { vec4 direction[]; };
+layout(buffer_reference, scalar) readonly buffer Samples { vec3 direction[]; };
 layout(buffer_reference, scalar) writeonly buffer Occluded { float irradiance[]; };
 layout(push_constant, scalar) uniform Push { EvalIrradiance pc; };
 
@@ -23,7 +23,7 @@ float occludedIrradiance(IrradianceCase at)
     mat3 frame = tangentFrame(at.normal);
     float hidden[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (uint i = 0u; i < pc.sampleCount; ++i) {
-        vec3 direction = frame * Samples(pc.samples).direction[i].xyz;
+        vec3 direction = frame * Samples(pc.samples).direction[i];
         if (!holds(cone, direction) || !hitsSphere(at.position, direction, at.centre, at.radius))
             continue;
         float y[9];

@@ -1,5 +1,6 @@
 // Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
-// Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; REFERENCE jitters the points anew each frame.
+// Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; WORDS times 32 samples are looked at in one go; REFERENCE
+// jitters the points anew each frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -17,12 +18,10 @@
 #include "lib/ray_query.glsl"
 #include "lib/traced.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Samples { uint word[]; };
-layout(buffer_reference, scalar) readonly buffer Masks { uint word[]; };
+layout(buffer_reference, scalar) readonly buffer Samples { vec3 direction[]; };
+layout(buffer_reference, scalar) readonly buffer Blockers { BlockerBlock block[]; };
+layout(buffer_reference, scalar) readonly buffer Capsules { CapsuleBlock block[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
-layout(set = 0, binding = 3, scalar) readonly buffer EvenSamples { uint word[]; } evenSamples[];
-layout(set = 0, binding = 3, scalar) readonly buffer Blockers { BlockerBlock block[]; } blockers[];
-layout(set = 0, binding = 3, scalar) readonly buffer Capsules { CapsuleBlock block[]; } capsules[];
 layout(push_constant, scalar) uniform Push { OcclusionTrace pc; };
 
 // One thread a pixel, for finding the rays that survive; then the group's rays are dealt out evenly, so that no lane idles.
@@ -55,17 +54,7 @@ vec3 localSample(uint i)
     // Another ring offset every frame: van der Corput, so that any number of frames is well spread.
     return cosineHammersley(i, pc.sampleCount, radicalInverse2(pc.frameIndex + 1u));
 #else
-    return sampleFromWord(Samples(pc.samples).word[i]);
-#endif
-}
-
-// `i` is the same for all threads, which read it once.
-vec3 evenSample(uint i)
-{
-#ifdef REFERENCE
-    return localSample(i);
-#else
-    return sampleFromWord(evenSamples[pc.evenSamples].word[i]);
+    return Samples(pc.samples).direction[i];
 #endif
 }
 
@@ -77,7 +66,7 @@ bool isNegligible(Cone cone, vec3 normal) { return 0.3 * greatestShare(cone, nor
 void traceAll(Receiver r)
 {
     for (uint i = 0u; i < pc.sampleCount; ++i) {
-        vec3 direction = r.frame * evenSample(i);
+        vec3 direction = r.frame * localSample(i);
         if (dynamicHitsFirstOfAll(pc.scene, r.origin, direction))
             addHidden(direction);
     }
@@ -86,120 +75,110 @@ void traceAll(Receiver r)
 
 #else
 
-// The samples base..base + 127 that may hit something that moves, and how far their rays must go.
+// WORDS times 32 samples from `base` on that may hit something that moves, and how far their rays must go.
 struct Survivors
 {
-    uvec4 samples;
+    uint samples[WORDS];
     float far;
 };
 
-uint wordCount(uint base) { return min(4u, (pc.sampleCount - base) / 32u); }
+// The batch of samples that all threads look at now: a test against a cone is some multiplications then, and no look-up.
+const uint kBatch = 32u * WORDS;
+vec3 batch[kBatch];
 
-#if CULLING == 1 || CULLING == 2
-
-uint samplesInCone(uint base, vec3 axis, float cosine)
+void loadBatch(uint base)
 {
-    uint inside = 0u;
-    uint end = base + min(32u, pc.sampleCount - base);
-    for (uint i = base; i < end; ++i)
-        inside |= dot(evenSample(i), axis) >= cosine ? 1u << (i - base) : 0u;
-    return inside;
+    for (uint w = 0u; w < WORDS; ++w)
+        for (uint i = 0u; i < 32u; ++i)
+            batch[32u * w + i] = localSample(min(base + 32u * w + i, pc.sampleCount - 1u));
 }
 
-Survivors survivorsAmong(Receiver r, uint base)
+uint[WORDS] noSamples()
 {
-    // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
-    Survivors survivors = Survivors(uvec4(0u), 0.0);
-    for (uint k = 0u; k < pc.blockerCount; ++k) {
-        BlockerBlock blocker = blockers[pc.blockers].block[k];
-        if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
-            continue;
-        Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
-        vec3 axis = cone.axis * r.frame; // into the sample frame
-        uint words = wordCount(base);
-        for (uint w = 0u; w < words; ++w)
-            survivors.samples[w] |= samplesInCone(base + 32u * w, axis, cone.all ? -2.0 : cone.cosine);
-        survivors.far = max(survivors.far, CULLING == 2 ? cone.height : kRayFar);
-        coneCount += base == 0u ? 1u : 0u;
-    }
-    return survivors;
-}
-
-#else
-
-uvec4 maskOf(vec3 axis, float sine, uint base)
-{
-    uint first = (maskCell(axis, sine) * pc.sampleCount + base) / 32u, words = wordCount(base);
-    uvec4 samples = uvec4(0u);
-    for (uint w = 0u; w < words; ++w)
-        samples[w] = Masks(pc.masks).word[first + w];
+    uint samples[WORDS];
+    for (uint w = 0u; w < WORDS; ++w)
+        samples[w] = 0u;
     return samples;
 }
 
-// Candidates that meet the capsule; its ends relative to the origin, in the sample frame.
-uvec4 samplesThatHit(uvec4 candidates, uint base, vec3 a, vec3 b, float radius)
+uint countOf(uint samples[WORDS])
 {
-    // The test stands behind the body: CPU devices run a body once more than its loop goes round.
-    uvec4 hits = uvec4(0u);
-    do {
-        uint w = candidates.x != 0u ? 0u : candidates.y != 0u ? 1u : candidates.z != 0u ? 2u : 3u;
-        uint word = candidates[w];
-        uint bit = word & (~word + 1u); // none: 0
-        candidates[w] = word ^ bit;
-        if (hitsCapsule(vec3(0.0), localSample(base + 32u * w + uint(max(findLSB(word), 0))), a, b, radius))
-            hits[w] |= bit;
-    } while (any(notEqual(candidates, uvec4(0u))));
-    return hits;
+    uint count = 0u;
+    for (uint w = 0u; w < WORDS; ++w)
+        count += uint(bitCount(samples[w]));
+    return count;
 }
 
-// The samples in the cone of the sphere about the capsule: coarse, cheap, and left to samplesThatHit to refine.
-uvec4 capsuleCandidates(Receiver r, CapsuleBlock capsule, vec3 toMiddle, uint base)
+// `axis` in the sample frame.
+uint[WORDS] samplesInCone(Cone cone, vec3 axis)
 {
-    float inverse = inversesqrt(max(dot(toMiddle, toMiddle), 1.0e-20));
-    float sine = capsule.reach * inverse;
-    uvec4 inCone = maskOf(toMiddle * inverse * r.frame, min(sine, 1.0), base);
-    return sine < 0.99999 ? inCone : uvec4(0xffffffffu);
+    uint inside[WORDS] = noSamples();
+    float cosine = cone.all ? -2.0 : cone.cosine;
+    for (uint w = 0u; w < WORDS; ++w)
+        for (uint i = 0u; i < 32u; ++i)
+            inside[w] |= dot(batch[32u * w + i], axis) >= cosine ? 1u << i : 0u;
+    return inside;
 }
 
-void addCapsule(Receiver r, CapsuleBlock capsule, uvec4 among, uint base, inout Survivors survivors)
+uint[WORDS] samplesMeeting(CapsuleBound bound)
 {
-    vec3 toMiddle = 0.5 * (capsule.a + capsule.b) - r.origin;
-    if (dot(toMiddle, r.normal) <= -capsule.reach)
-        return;
-    coneCount += base == 0u ? 1u : 0u;
-    uvec4 candidates = capsuleCandidates(r, capsule, toMiddle, base) & among & ~survivors.samples;
-    vec3 a = (capsule.a - r.origin) * r.frame, b = (capsule.b - r.origin) * r.frame;
-    survivors.samples |= samplesThatHit(candidates, base, a, b, capsule.radius);
+    uint meeting[WORDS] = noSamples();
+    for (uint w = 0u; w < WORDS; ++w)
+        for (uint i = 0u; i < 32u; ++i)
+            meeting[w] |= mayMeet(bound, batch[32u * w + i]) ? 1u << i : 0u;
+    return meeting;
+}
+
+// The samples of a character's cone that may meet one of its capsules too.
+uint[WORDS] samplesMeetingBones(Receiver r, BlockerBlock blocker, uint among[WORDS])
+{
+    // A loop that goes round for nobody is what spares CPU devices the work; so few samples are sooner traced than asked about.
+    bool isWorthIt = countOf(among) > WORDS;
+    uint capsuleCount = isWorthIt ? blocker.capsuleCount : 0u;
+    uint meeting[WORDS] = noSamples();
+    for (uint c = 0u; c < capsuleCount; ++c) {
+        CapsuleBlock capsule = Capsules(pc.capsules).block[blocker.firstCapsule + c];
+        uint more[WORDS] = samplesMeeting(
+            boundOfCapsule((capsule.middle - r.origin) * r.frame, capsule.arm * r.frame, capsule.radius, capsule.reach));
+        for (uint w = 0u; w < WORDS; ++w)
+            meeting[w] |= more[w];
+    }
+    coneCount += capsuleCount;
+    for (uint w = 0u; w < WORDS; ++w)
+        meeting[w] = isWorthIt ? meeting[w] & among[w] : among[w];
+    return meeting;
 }
 
 Survivors survivorsAmong(Receiver r, uint base)
 {
-    Survivors survivors = Survivors(uvec4(0u), 0.0);
-    uvec4 existing = mix(uvec4(0u), uvec4(0xffffffffu), greaterThan(uvec4(pc.sampleCount - base), uvec4(0u, 32u, 64u, 96u)));
+    Survivors survivors = Survivors(noSamples(), 0.0);
     for (uint k = 0u; k < pc.blockerCount; ++k) {
-        BlockerBlock blocker = blockers[pc.blockers].block[k];
-        if (isBehind(r.origin, r.normal, blocker.centre, blocker.radius))
-            continue;
+        BlockerBlock blocker = Blockers(pc.blockers).block[k];
         Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
-        if (isNegligible(cone, r.normal))
-            continue;
-        uvec4 among = cone.all ? existing : maskOf(cone.axis * r.frame, sin(cone.halfAngle), base);
-        if (all(equal(among, uvec4(0u))))
-            continue;
-        survivors.far = max(survivors.far, cone.height);
-        for (uint c = 0u; c < blocker.capsuleCount; ++c)
-            addCapsule(r, capsules[pc.capsules].block[blocker.firstCapsule + c], among, base, survivors);
+        bool matters = !isBehind(r.origin, r.normal, blocker.centre, blocker.radius);
+#if CULLING == 3
+        matters = matters && !isNegligible(cone, r.normal);
+#endif
+        uint among[WORDS] = samplesInCone(cone, cone.axis * r.frame);
+        for (uint w = 0u; w < WORDS; ++w)
+            among[w] &= matters && base + 32u * w < pc.sampleCount ? 0xffffffffu : 0u;
+#if CULLING == 3
+        among = samplesMeetingBones(r, blocker, among);
+#endif
+        for (uint w = 0u; w < WORDS; ++w)
+            survivors.samples[w] |= among[w];
+        coneCount += matters ? 1u : 0u;
+        // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
+        survivors.far = max(survivors.far, !matters ? 0.0 : CULLING == 1 ? kRayFar : cone.height);
     }
     return survivors;
 }
-
-#endif
 
 // The group's rays, each the number of its pixel and of its sample, and what every pixel's rays start from.
 const uint kListSize = 4096u;
 shared uint rayCount;
 shared uint rays[kListSize];
-shared uvec4 hits[kGroupSize];
+shared uint hits[WORDS * kGroupSize];
 shared vec3 origins[kGroupSize];
 shared vec3 tangents[kGroupSize];
 shared vec3 normals[kGroupSize];
@@ -215,23 +194,18 @@ uint groupSum(uint value)
     return rayCount;
 }
 
-uint bitCountOf(uvec4 words)
-{
-    uvec4 counts = uvec4(bitCount(words));
-    return counts.x + counts.y + counts.z + counts.w;
-}
-
 // Traces the group's surviving rays, at most kListSize, and adds what this pixel's rays found.
-void traceTogether(Receiver r, uvec4 survivors, uint base)
+void traceTogether(Receiver r, uint survivors[WORDS], uint base)
 {
     uint me = gl_LocalInvocationIndex;
+    uint mine = countOf(survivors);
     barrier();
     rayCount = 0u;
-    hits[me] = uvec4(0u);
+    for (uint w = 0u; w < WORDS; ++w)
+        hits[WORDS * me + w] = 0u;
     barrier();
-    uint next = atomicAdd(rayCount, bitCountOf(survivors));
-    uint words = wordCount(base);
-    for (uint w = 0u; w < words; ++w)
+    uint next = atomicAdd(rayCount, mine);
+    for (uint w = 0u; w < WORDS; ++w)
         for (uint word = survivors[w]; word != 0u; word &= word - 1u)
             rays[next++] = me << 7u | w << 5u | uint(findLSB(word));
     barrier();
@@ -239,11 +213,11 @@ void traceTogether(Receiver r, uvec4 survivors, uint base)
         uint pixel = rays[i] >> 7u, bit = rays[i] & 127u;
         vec3 direction = mat3(tangents[pixel], cross(normals[pixel], tangents[pixel]), normals[pixel]) * localSample(base + bit);
         if (dynamicHitsFirst(pc.scene, origins[pixel], direction, fars[pixel]))
-            atomicOr(hits[pixel][bit >> 5u], 1u << (bit & 31u));
+            atomicOr(hits[WORDS * pixel + (bit >> 5u)], 1u << (bit & 31u));
     }
     barrier();
-    for (uint w = 0u; w < words; ++w)
-        for (uint word = hits[me][w]; word != 0u; word &= word - 1u)
+    for (uint w = 0u; w < WORDS; ++w)
+        for (uint word = hits[WORDS * me + w]; word != 0u; word &= word - 1u)
             addHidden(r.frame * localSample(base + 32u * w + uint(findLSB(word))));
 }
 
@@ -253,20 +227,27 @@ void traceSurvivors(Receiver r, bool isSurface)
     origins[me] = r.origin;
     tangents[me] = r.frame[0];
     normals[me] = r.normal;
-    for (uint base = 0u; base < pc.sampleCount; base += 128u) {
-        Survivors survivors = Survivors(uvec4(0u), 0.0);
+    for (uint base = 0u; base < pc.sampleCount; base += kBatch) {
+        loadBatch(base);
+        Survivors survivors = Survivors(noSamples(), 0.0);
         if (isSurface)
             survivors = survivorsAmong(r, base);
-        uint mine = bitCountOf(survivors.samples);
+        uint mine = countOf(survivors.samples);
         raysTraced += mine;
         fars[me] = survivors.far;
+#if WORDS == 1
+        traceTogether(r, survivors.samples, base); // a word of every pixel fits the list
+#else
         uint all = groupSum(mine);
-        // All rays in one round where they fit the list; a word of every pixel always does.
-        uint rounds = all == 0u ? 0u : all <= kListSize ? 1u : 4u;
+        // All rays in one round where they fit; else a word of every pixel at a time.
+        uint rounds = all == 0u ? 0u : all <= kListSize ? 1u : WORDS;
         for (uint round = 0u; round < rounds; ++round) {
-            bvec4 isTurn = equal(uvec4(0u, 1u, 2u, 3u), uvec4(round));
-            traceTogether(r, rounds == 1u ? survivors.samples : mix(uvec4(0u), survivors.samples, isTurn), base);
+            uint turn[WORDS];
+            for (uint w = 0u; w < WORDS; ++w)
+                turn[w] = rounds == 1u || w == round ? survivors.samples[w] : 0u;
+            traceTogether(r, turn, base);
         }
+#endif
     }
 }
 

@@ -18,8 +18,9 @@ void main()
     vec3 lowest = vec3(1.0e30), highest = vec3(-1.0e30);
     for (uint c = 0u; c < pc.boneCount; ++c) {
         CapsuleBlock capsule = Capsules(pc.capsules).block[c];
-        lowest = min(lowest, min(capsule.a, capsule.b) - capsule.radius);
-        highest = max(highest, max(capsule.a, capsule.b) + capsule.radius);
+        vec3 extent = abs(capsule.arm) + capsule.radius;
+        lowest = min(lowest, capsule.middle - extent);
+        highest = max(highest, capsule.middle + extent);
     }
     vec3 centre = 0.5 * (lowest + highest);
     float radius2 = 0.0;

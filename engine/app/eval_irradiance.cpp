@@ -64,8 +64,8 @@ Evaluation evaluateIrradiance(gpu::Device& device, const Path& file)
 {
     const EvalCases cases(file);
     const gpu::Pipeline pipeline = gpu::computePipeline(device, "eval_irradiance.comp");
-    const std::vector<vec4> points = render::hemisphereSamples(kSampleCount);
-    const gpu::Buffer samples = gpu::uploadedBuffer(device, "hemisphere samples", std::span<const vec4>(points));
+    const std::vector<vec3> points = render::hemisphereSamples(kSampleCount);
+    const gpu::Buffer samples = gpu::uploadedBuffer(device, "hemisphere samples", std::span<const vec3>(points));
     const gpu::Buffer occluded(device, "occluded irradiance", EvalCases::kBatch * sizeof(float), gpu::MemoryKind::Readback);
 
     Evaluation evaluation{.cases = cases.size()};

@@ -78,6 +78,35 @@ Cone coneOfCapsule(vec3 p, vec3 n, vec3 a, vec3 b, float radius)
     return coneAbout(axis, sin(halfAngle), halfAngle, height);
 }
 
+// What every ray from the apex that meets a capsule obeys: it lies in the cone of the sphere about the capsule, and it leaves the plane
+// through apex and axis by no more than the radius seen from the nearest point of the axis. Two dot products a ray.
+struct CapsuleBound
+{
+    vec3 towards; // the capsule's middle
+    float least; // of dot(ray, towards)
+    vec3 across; // normal of the plane, of any length
+    float most; // of |dot(ray, across)|
+};
+
+// The capsule's middle relative to the apex, and the arm from it to one end; `reach` is the radius of the sphere about the middle.
+CapsuleBound boundOfCapsule(vec3 middle, vec3 arm, float radius, float reach)
+{
+    float t = clamp(-dot(middle, arm) / max(dot(arm, arm), 1.0e-30), -1.0, 1.0);
+    vec3 nearest = middle + t * arm;
+    float near2 = dot(nearest, nearest);
+    // All products err by some units in the last place of their factors' lengths; so much is given on either side.
+    float least = sqrt(max(dot(middle, middle) - reach * reach, 0.0)) * (1.0 - 1.0e-5) - 2.0e-6 * reach;
+    vec3 across = cross(middle, arm);
+    float most = radius * sqrt((1.0 + 1.0e-5) * dot(across, across) / max(near2, 1.0e-30)) + 1.0e-6 * reach * reach;
+    bool isInside = near2 <= radius * radius;
+    return CapsuleBound(middle, isInside || dot(middle, middle) <= reach * reach ? -1.0e30 : least, across, isInside ? 1.0e30 : most);
+}
+
+bool mayMeet(CapsuleBound bound, vec3 direction)
+{
+    return dot(direction, bound.towards) >= bound.least && abs(dot(direction, bound.across)) <= bound.most;
+}
+
 // A ray that only rounding puts outside is held.
 bool holds(Cone cone, vec3 direction) { return cone.all || distance(direction, cone.axis) <= cone.chord + 1.0e-6; }
 
@@ -86,8 +115,10 @@ float greatestShare(Cone cone, vec3 n)
 {
     if (cone.all)
         return 1.0;
-    float elevation = asin(clamp(dot(cone.axis, n), -1.0, 1.0));
-    float cosine = sin(clamp(elevation + cone.halfAngle, 0.0, kHalfPi));
+    // sin(elevation + half angle), which is 1 from a right angle on.
+    float sine = clamp(dot(cone.axis, n), -1.0, 1.0);
+    float sineHalf = sqrt(max(1.0 - cone.cosine * cone.cosine, 0.0));
+    float cosine = sine >= cone.cosine ? 1.0 : max(sine * cone.cosine + sqrt(1.0 - sine * sine) * sineHalf, 0.0);
     return cone.chord * cone.chord * cosine; // solid angle / pi
 }
 

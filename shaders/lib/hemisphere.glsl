@@ -33,13 +33,6 @@ vec3 cosineHammersley(uint i, uint count, float jitter)
     return vec3(r * cos(phi), r * sin(phi), sqrt(max(0.0, 1.0 - u)));
 }
 
-// A direction of the upper hemisphere from its point on the disk, 16 bits a coordinate.
-vec3 sampleFromWord(uint word)
-{
-    vec2 disk = unpackSnorm2x16(word);
-    return vec3(disk, sqrt(max(0.0, 1.0 - dot(disk, disk))));
-}
-
 // Sixteen rotations in a square of 4 x 4 pixels, dealt out in ordered-dither order so that neighbours differ most. A filter of that
 // width sees each once, and pixels four apart trace the same directions, which keeps their rays together.
 const uint kRotationPattern = 4u;

@@ -45,13 +45,13 @@ struct BlockerDispatch
 struct OcclusionTrace
 {
     uint64_t scene; // top-level acceleration structure
-    uint64_t samples; // uint[sampleCount], local directions as packed by engine/render/shadow/mask_table.h
+    uint64_t samples; // vec3[sampleCount], local directions
     uint64_t masks; // uint[cell][sampleCount / 32]
     uint64_t counters; // CounterBlock
+    uint64_t blockers; // BlockerBlock[blockerCount]
+    uint64_t capsules; // CapsuleBlock[]
     uint frame; // slots: FrameBlock,
     uint evenSamples; // the samples again,
-    uint blockers; // BlockerBlock[blockerCount],
-    uint capsules; // CapsuleBlock[]
     uint depth;
     uint normals;
     uint occluded; // written: a traced pixel, or by the reference W/m^2

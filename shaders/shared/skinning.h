@@ -48,9 +48,9 @@ struct BoneBlock
 // Bounds of a posed character, in its own space or in the world's.
 struct CapsuleBlock
 {
-    vec3 a;
+    vec3 middle;
     float radius;
-    vec3 b;
+    vec3 arm; // from the middle to one end of the axis; the other end lies as far the other way
     float reach; // the radius of the sphere about the middle that holds the capsule
 };
 

@@ -138,9 +138,9 @@ void echo(BoneBlock b)
 #define Block CapsuleBlock
 void echo(CapsuleBlock b)
 {
-    put(b.a);
+    put(b.middle);
     put(b.radius);
-    put(b.b);
+    put(b.arm);
     put(b.reach);
 }
 

@@ -89,7 +89,7 @@ TEST_F(SharedStructs, BoneBlock)
 
 TEST_F(SharedStructs, CapsuleBlock)
 {
-    expectSameLayout<shader::CapsuleBlock>("CAPSULE_BLOCK", [](const auto& b) { return wordsOf(b.a, b.radius, b.b, b.reach); });
+    expectSameLayout<shader::CapsuleBlock>("CAPSULE_BLOCK", [](const auto& b) { return wordsOf(b.middle, b.radius, b.arm, b.reach); });
 }
 
 TEST_F(SharedStructs, SphereBlock)

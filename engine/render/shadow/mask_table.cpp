@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 namespace antumbra::render {
 
@@ -73,29 +72,19 @@ uint32_t curvePosition(vec2 point)
 
 } // namespace
 
-std::vector<vec4> hemisphereSamples(uint32_t count)
+std::vector<vec3> hemisphereSamples(uint32_t count)
 {
-    std::vector<vec4> samples;
+    std::vector<vec3> samples;
     samples.reserve(count);
     for (uint32_t i = 0; i < count; ++i) {
         const double u = (i + 0.5) / count, phi = 4 * kHalfPi * radicalInverse2(i), r = std::sqrt(u);
-        const vec2 disk = glm::unpackSnorm2x16(glm::packSnorm2x16({r * std::cos(phi), r * std::sin(phi)}));
-        samples.emplace_back(disk, std::sqrt(std::max(0.0f, 1.0f - glm::dot(disk, disk))), 0);
+        samples.emplace_back(r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - u));
     }
-    std::ranges::sort(samples, {}, [](const vec4& sample) { return curvePosition({sample.x, sample.y}); });
+    std::ranges::sort(samples, {}, [](const vec3& sample) { return curvePosition({sample.x, sample.y}); });
     return samples;
 }
 
-std::vector<uint32_t> packedSamples(const std::vector<vec4>& samples)
-{
-    std::vector<uint32_t> words;
-    words.reserve(samples.size());
-    for (const vec4& sample : samples)
-        words.push_back(glm::packSnorm2x16({sample.x, sample.y}));
-    return words;
-}
-
-std::vector<uint32_t> maskTable(const std::vector<vec4>& samples)
+std::vector<uint32_t> maskTable(const std::vector<vec3>& samples)
 {
     constexpr uint32_t axes = shader::kMaskAxisCells * shader::kMaskAxisCells;
     const size_t words = (samples.size() + 31) / 32;

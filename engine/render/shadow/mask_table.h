@@ -9,14 +9,11 @@
 namespace antumbra::render {
 
 /// The cosine-weighted Hammersley points about +Z of shaders/lib/hemisphere.glsl, ordered so that neighbours in the list are neighbours on
-/// the hemisphere: rays that are traced together then stay together. Rounded to what packedSamples keeps; w is 0.
-std::vector<vec4> hemisphereSamples(uint32_t count);
-
-/// The same, a word each: the point on the disk, 16 bits a coordinate; sampleFromWord of shaders/lib/hemisphere.glsl unpacks it.
-std::vector<uint32_t> packedSamples(const std::vector<vec4>& samples);
+/// the hemisphere: rays that are traced together then stay together.
+std::vector<vec3> hemisphereSamples(uint32_t count);
 
 /// Bit s of word [cell][s / 32] is set unless sample s lies outside every cone of the cell; cells as in shaders/lib/mask_table.glsl,
 /// a word for every 32 samples begun. 256 KiB for 128 samples.
-std::vector<uint32_t> maskTable(const std::vector<vec4>& samples);
+std::vector<uint32_t> maskTable(const std::vector<vec3>& samples);
 
 } // namespace antumbra::render

@@ -11,22 +11,30 @@ using graph::Use;
 constexpr uvec2 kTraceGroup{16, 8};                            // pixels, as in occlusion_trace.comp
 constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/traced.glsl
 
+/// Samples that a thread looks at in one go, in words of 32: as many as there are, and at most four.
+uint32_t wordsAtOnce(uint32_t samples) { return samples >= 128 ? 4 : samples >= 64 ? 2 : 1; }
+
 } // namespace
+
+gpu::Pipeline& OcclusionSystem::tracePipeline(const OcclusionKnobs& knobs)
+{
+    return trace_[static_cast<size_t>(knobs.culling)][wordsAtOnce(knobs.samples) / 2];
+}
 
 void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
 {
-    gpu::Pipeline& trace = trace_[static_cast<size_t>(knobs.culling)];
+    gpu::Pipeline& trace = tracePipeline(knobs);
     if (!trace) {
-        const gpu::ShaderDefine culling{"CULLING", static_cast<int>(knobs.culling)};
-        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(&culling, 1));
+        const std::array<gpu::ShaderDefine, 2> defines{
+            {{"CULLING", static_cast<int>(knobs.culling)}, {"WORDS", static_cast<int>(wordsAtOnce(knobs.samples))}}};
+        trace = computePipeline(*device_, "occlusion_trace.comp", defines);
     }
     if (knobs.filter > 0 && !filter_)
         filter_ = computePipeline(*device_, "occlusion_filter.comp");
     if (sampleCount_ == knobs.samples && (masks_ || knobs.culling != Culling::Bones))
         return;
-    const std::vector<vec4> samples = hemisphereSamples(knobs.samples);
-    const std::vector<uint32_t> words = packedSamples(samples);
-    samples_ = gpu::uploadedBuffer(*device_, "hemisphere samples", std::span<const uint32_t>(words));
+    const std::vector<vec3> samples = hemisphereSamples(knobs.samples);
+    samples_ = gpu::uploadedBuffer(*device_, "hemisphere samples", std::span<const vec3>(samples));
     const std::vector<uint32_t> masks = knobs.culling == Culling::Bones ? maskTable(samples) : std::vector<uint32_t>{};
     masks_ = masks.empty() ? gpu::Buffer() : gpu::uploadedBuffer(*device_, "mask table", std::span<const uint32_t>(masks));
     sampleCount_ = knobs.samples;
@@ -46,17 +54,17 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
-    const gpu::Pipeline& pipeline = trace_[static_cast<size_t>(knobs.culling)];
+    const gpu::Pipeline& pipeline = tracePipeline(knobs);
     pass.record([this, &view, &scene, &pipeline, frame, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::OcclusionTrace{.scene = scene.scene().address(),
                                                  .samples = samples_.address(),
                                                  .masks = masks_.address(),
                                                  .counters = recorder.address(counted),
+                                                 .blockers = scene.blockers().address(),
+                                                 .capsules = scene.capsules().address(),
                                                  .frame = frame,
                                                  .evenSamples = samples_.slot(),
-                                                 .blockers = scene.blockers().slot(),
-                                                 .capsules = scene.capsules().slot(),
                                                  .depth = recorder.sampled(g.depth),
                                                  .normals = recorder.sampled(g.normals),
                                                  .occluded = recorder.storage(traced),

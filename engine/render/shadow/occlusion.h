@@ -24,6 +24,7 @@ public:
                    const Posed& posed, graph::BufferRef& counters);
 
 private:
+    gpu::Pipeline& tracePipeline(const OcclusionKnobs& knobs);
     void prepare(const OcclusionKnobs& knobs);
     graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
                                  const Posed& posed, graph::BufferRef& counters);
@@ -31,7 +32,7 @@ private:
                                   graph::ImageRef traced);
 
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 4> trace_; // by Culling, each made when first asked for
+    std::array<std::array<gpu::Pipeline, 3>, 4> trace_; // by Culling and words at once, each made when first asked for
     gpu::Pipeline filter_;
     gpu::Buffer samples_, masks_;
     uint32_t sampleCount_ = 0; // of both

@@ -63,7 +63,7 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         return {};
     }
     if (!trace_) {
-        const std::array<gpu::ShaderDefine, 2> defines{{{"CULLING", 0}, {"REFERENCE", 1}}};
+        const std::array<gpu::ShaderDefine, 3> defines{{{"CULLING", 0}, {"WORDS", 1}, {"REFERENCE", 1}}};
         trace_ = computePipeline(*device_, "occlusion_trace.comp", defines);
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     }
