@@ -52,7 +52,7 @@ ivec2 placeOf(ivec2 corner, ivec2 place) { return clamp(corner + place, ivec2(0)
 ivec2 ringStep(uint k) { return ivec2(uvec2(0xcc99f0u, 0xf0f099u) >> 2u * k & 3u) - 1; }
 
 // Joint-bilateral upsampling (Kopf et al. 2007): of the four traced pixels around, those on the pixel's own surface count; where none is,
-// the ring about them is asked, then the likest is taken. Contact shadows stay where surfaces meet. Occluded irradiance; cones in a.
+// the ring about them is asked, then the likest is taken. Contact shadows stay where surfaces meet. Occluded share; cones in a.
 vec4 upsampled(ivec2 pixel, ivec2 corner, float depthView, vec3 normal)
 {
     const float kEnough = 0.05;
@@ -66,7 +66,7 @@ vec4 upsampled(ivec2 pixel, ivec2 corner, float depthView, vec3 normal)
     for (int k = 0; k < 4; ++k) {
         float like = likeness(plane, origin + scale * vec2(places[k]), around[k]);
         vec2 near = mix(1.0 - at, at, bvec2(k & 1, k >> 1));
-        vec4 value = vec4(around[k].occluded, around[k].cones);
+        vec4 value = vec4(around[k].occluded, float(around[k].cones));
         float weight = like * near.x * near.y;
         sum += weight * value;
         weights += weight;
@@ -77,7 +77,7 @@ vec4 upsampled(ivec2 pixel, ivec2 corner, float depthView, vec3 normal)
         ivec2 place = placeOf(corner, ringStep(k));
         TracedPixel traced = tracedAt(corner, place);
         float like = likeness(plane, origin + scale * vec2(place), traced);
-        vec4 value = vec4(traced.occluded, traced.cones);
+        vec4 value = vec4(traced.occluded, float(traced.cones));
         sum += 0.1 * like * value;
         weights += 0.1 * like;
         best = like > bestLikeness ? value : best;
@@ -130,7 +130,7 @@ void composePixel(ivec2 pixel, ivec2 corner)
     vec4 occluded = vec4(0.0);
 #ifdef OCCLUDED
     if (isSurface)
-        occluded = upsampled(pixel, corner, frameBlock.near / depth, normal);
+        occluded = vec4(firstTerm, 1.0) * upsampled(pixel, corner, frameBlock.near / depth, normal);
 #endif
 #ifdef EXPLAINS
     vec3 truth = pc.reference != kAbsent && isSurface ? texelFetch(sampledImages[pc.reference], pixel, 0).rgb : occluded.rgb;

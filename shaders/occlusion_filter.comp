@@ -8,6 +8,13 @@
 
 // Cross-bilateral filter of the occluded irradiance alone (Xu et al. 2022, section 4): neighbours on the same surface count. The
 // outermost taps count half, so that a width of 4k + 1 sees each of the 4 x 4 rotations equally often.
+// A shadow changes over lengths such as its blocker is away: 1 well within that, a half at half of it.
+float withinPenumbra(float apart, float blockerDistance)
+{
+    float t = apart / (0.5 * blockerDistance);
+    return 1.0 / (1.0 + t * t * t * t);
+}
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Push { OcclusionFilter pc; };
@@ -20,6 +27,7 @@ void main()
         return;
     TracedPixel centre = unpackTraced(texelFetch(sampledWordImages[pc.traced], pixel, 0));
     vec2 full = min(floor((vec2(pixel) + 0.5) * pc.pixelScale), vec2(pc.lastPixel)) + 0.5;
+    vec3 position = fromEye(frameBlock, full, centre.depthView);
     PixelPlane plane = pixelPlane(frameBlock, full, centre.depthView, unitFromOctahedral(centre.normal));
 
     vec3 sum = centre.occluded * 1.0e-6; // nothing else may count
@@ -28,7 +36,9 @@ void main()
         for (int dx = -pc.radius; dx <= pc.radius; ++dx) {
             ivec2 there = clamp(pixel + ivec2(dx, dy), ivec2(0), extent - 1);
             TracedPixel neighbour = unpackTraced(texelFetch(sampledWordImages[pc.traced], there, 0));
-            float weight = likeness(plane, vec2(there - pixel) * pc.pixelScale, neighbour);
+            vec2 offset = vec2(there - pixel) * pc.pixelScale;
+            float apart = distance(fromEye(frameBlock, full + offset, neighbour.depthView), position);
+            float weight = likeness(plane, offset, neighbour) * withinPenumbra(apart, min(centre.blockerDistance, neighbour.blockerDistance));
             weight *= (abs(dx) == pc.radius ? 0.5 : 1.0) * (abs(dy) == pc.radius ? 0.5 : 1.0);
             sum += weight * neighbour.occluded;
             weights += weight;

@@ -37,6 +37,7 @@ struct Receiver
 
 // What the samples found: sums of the SH basis over hidden directions, from which the irradiance follows once.
 float hidden[9];
+float blockerDistance = kNoBlocker;
 uint raysConsidered = 0u, raysTraced = 0u, coneCount = 0u;
 
 void addHidden(vec3 direction)
@@ -67,8 +68,11 @@ void traceAll(Receiver r)
 {
     for (uint i = 0u; i < pc.sampleCount; ++i) {
         vec3 direction = r.frame * localSample(i);
-        if (dynamicHitsFirstOfAll(pc.scene, r.origin, direction))
+        float hit = dynamicHitFirstOfAll(pc.scene, r.origin, direction);
+        if (hit >= 0.0) {
             addHidden(direction);
+            blockerDistance = min(blockerDistance, hit);
+        }
     }
     raysTraced = pc.sampleCount;
 }
@@ -183,6 +187,7 @@ shared vec3 origins[kGroupSize];
 shared vec3 tangents[kGroupSize];
 shared vec3 normals[kGroupSize];
 shared float fars[kGroupSize];
+shared uint nearestHits[kGroupSize]; // bits of distances, which order as they do
 
 uint groupSum(uint value)
 {
@@ -212,8 +217,11 @@ void traceTogether(Receiver r, uint survivors[WORDS], uint base)
     for (uint i = me; i < rayCount; i += kGroupSize) {
         uint pixel = rays[i] >> 7u, bit = rays[i] & 127u;
         vec3 direction = mat3(tangents[pixel], cross(normals[pixel], tangents[pixel]), normals[pixel]) * localSample(base + bit);
-        if (dynamicHitsFirst(pc.scene, origins[pixel], direction, fars[pixel]))
+        float hit = dynamicHitFirst(pc.scene, origins[pixel], direction, fars[pixel]);
+        if (hit >= 0.0) {
             atomicOr(hits[WORDS * pixel + (bit >> 5u)], 1u << (bit & 31u));
+            atomicMin(nearestHits[pixel], floatBitsToUint(hit));
+        }
     }
     barrier();
     for (uint w = 0u; w < WORDS; ++w)
@@ -227,6 +235,7 @@ void traceSurvivors(Receiver r, bool isSurface)
     origins[me] = r.origin;
     tangents[me] = r.frame[0];
     normals[me] = r.normal;
+    nearestHits[me] = floatBitsToUint(kNoBlocker);
     for (uint base = 0u; base < pc.sampleCount; base += kBatch) {
         loadBatch(base);
         Survivors survivors = Survivors(noSamples(), 0.0);
@@ -249,6 +258,7 @@ void traceSurvivors(Receiver r, bool isSurface)
         }
 #endif
     }
+    blockerDistance = uintBitsToFloat(nearestHits[me]);
 }
 
 #endif
@@ -259,6 +269,13 @@ vec3 hiddenIrradiance()
     for (int i = 0; i < 9; ++i)
         sum += frameBlock.radianceSh[i] * hidden[i];
     return sum * (kPi / float(pc.sampleCount));
+}
+
+// Ringing leaves some surfaces without light to speak of; whatever their share is, composition clamps it.
+vec3 shareOf(vec3 occluded, vec3 unshadowed)
+{
+    float most = max(unshadowed.r, max(unshadowed.g, unshadowed.b));
+    return clamp(occluded / max(unshadowed, vec3(1.0e-3 * most + 1.0e-6)), vec3(-2.0), vec3(2.0));
 }
 
 void count()
@@ -311,7 +328,8 @@ void main()
         imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
-    TracedPixel traced = TracedPixel(hiddenIrradiance(), float(coneCount), depthView, octahedralFromUnit(r.normal));
+    vec3 share = shareOf(hiddenIrradiance(), texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb);
+    TracedPixel traced = TracedPixel(share, coneCount, blockerDistance, depthView, octahedralFromUnit(r.normal));
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));
 #endif

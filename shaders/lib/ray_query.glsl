@@ -19,27 +19,26 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
     return rayQueryGetIntersectionTEXT(query, true);
 }
 
-// Any dynamic hit will do where nothing static lies before it; only else must the closest one be known. One loop with one query in it:
+// How far off the dynamic surface is that the ray hits before any static one; negative where there is none. One loop with one query in it:
 // CPU devices run the code of every branch, so the query must stand in the program once.
-bool dynamicHitsFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
+float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
 {
-    const uint kAnyDynamic = 0u, kStaticBefore = 1u, kClosestDynamic = 2u, kStaticBeforeClosest = 3u, kDone = 4u;
-    uint asked = kAnyDynamic;
-    bool hidden = false;
-    while (asked != kDone) {
-        bool isDynamic = asked == kAnyDynamic || asked == kClosestDynamic;
-        uint flags = asked == kClosestDynamic ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT;
-        float at = closestHit(scene, isDynamic ? kMaskDynamic : kMaskStatic, flags, origin, direction, far);
-        hidden = !isDynamic && at < 0.0;
-        far = isDynamic && at >= 0.0 ? at : far;
-        bool goesOn = asked == kAnyDynamic ? at >= 0.0 : asked == kStaticBefore ? at >= 0.0 : asked == kClosestDynamic;
-        asked = goesOn ? asked + 1u : kDone;
+    float hit = -1.0;
+    bool isAskingForStatic = false;
+    for (bool goesOn = true; goesOn;) {
+        uint mask = isAskingForStatic ? kMaskStatic : kMaskDynamic;
+        uint flags = isAskingForStatic ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
+        float at = closestHit(scene, mask, flags, origin, direction, far);
+        hit = !isAskingForStatic ? at : at < 0.0 ? hit : -1.0;
+        goesOn = !isAskingForStatic && at >= 0.0;
+        far = goesOn ? at : far;
+        isAskingForStatic = true;
     }
-    return hidden;
+    return hit;
 }
 
 // The same by one ray through everything: what a renderer without culling does. Instances carry their mask as custom index.
-bool dynamicHitsFirstOfAll(uint64_t scene, vec3 origin, vec3 direction)
+float dynamicHitFirstOfAll(uint64_t scene, vec3 origin, vec3 direction)
 {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, accelerationStructureEXT(scene), gl_RayFlagsOpaqueEXT, kMaskStatic | kMaskDynamic, origin, 0.0, direction,
@@ -47,8 +46,8 @@ bool dynamicHitsFirstOfAll(uint64_t scene, vec3 origin, vec3 direction)
     while (rayQueryProceedEXT(query)) {
     }
     if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
-        return false;
-    return uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)) == kMaskDynamic;
+        return -1.0;
+    return uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)) == kMaskDynamic ? rayQueryGetIntersectionTEXT(query, true) : -1.0;
 }
 
 #endif

@@ -22,6 +22,9 @@ float positionError(vec3 position, vec3 eye)
 // Where rays leave: on the outer side of the surface, past every error. The normal is the geometric one.
 vec3 rayOrigin(vec3 position, vec3 normalGeometric, vec3 eye) { return position + normalGeometric * (4.0 * positionError(position, eye)); }
 
+// From the eye, `depthView` metres deep.
+vec3 fromEye(FrameBlock frame, vec2 pixel, float depthView) { return (frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY) * depthView; }
+
 // The plane through a pixel's surface, for telling which neighbours lie on it.
 struct PixelPlane
 {

@@ -4,21 +4,31 @@
 
 struct TracedPixel
 {
-    vec3 occluded; // W/m^2
-    float cones;
+    vec3 occluded; // share of the unshadowed irradiance: it changes less over a curved surface than the irradiance does
+    uint cones; // 0..1023
+    float blockerDistance; // metres to the nearest surface that hides light; kNoBlocker: nothing does
     float depthView; // metres; 0: no surface
     vec2 normal; // shading, octahedral
 };
 
+const float kNoBlocker = 256.0;
+
+// Six bits, quarters of an octave from 2^-7.75 m on.
+uint packedDistance(float metres) { return uint(int(clamp(4.0 * log2(max(metres, 1.0e-6)) + 31.0, 0.0, 63.0))); }
+float unpackedDistance(uint bits) { return exp2((float(int(bits)) - 31.0) * 0.25); }
+
 uvec4 packTraced(TracedPixel t)
 {
-    return uvec4(packHalf2x16(t.occluded.rg), packHalf2x16(vec2(t.occluded.b, t.cones)), floatBitsToUint(t.depthView), packSnorm2x16(t.normal));
+    uint rest = min(t.cones, 1023u) << 6u | packedDistance(t.blockerDistance);
+    return uvec4(packHalf2x16(t.occluded.rg), packHalf2x16(vec2(t.occluded.b, 0.0)) | rest << 16u, floatBitsToUint(t.depthView),
+                 packSnorm2x16(t.normal));
 }
 
 TracedPixel unpackTraced(uvec4 words)
 {
-    vec2 blueCones = unpackHalf2x16(words.y);
-    return TracedPixel(vec3(unpackHalf2x16(words.x), blueCones.x), blueCones.y, uintBitsToFloat(words.z), unpackSnorm2x16(words.w));
+    uint rest = words.y >> 16u;
+    return TracedPixel(vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y & 0xffffu).x), rest >> 6u, unpackedDistance(rest & 63u),
+                       uintBitsToFloat(words.z), unpackSnorm2x16(words.w));
 }
 
 // 1 for a traced neighbour of the plane's own surface, towards 0 for another's; `offset` in pixels of the G-buffer.

@@ -51,9 +51,9 @@ struct OcclusionTrace
     uint64_t blockers; // BlockerBlock[blockerCount]
     uint64_t capsules; // CapsuleBlock[]
     uint frame; // slots: FrameBlock,
-    uint evenSamples; // the samples again,
     uint depth;
     uint normals;
+    uint unshadowed;
     uint occluded; // written: a traced pixel, or by the reference W/m^2
     uint sampleCount;
     uint blockerCount;

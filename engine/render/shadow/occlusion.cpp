@@ -48,6 +48,7 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     graph::Pass pass = graph.add("occlusion trace");
     pass.read(g.depth, Use::Sampled);
     pass.read(g.normals, Use::Sampled);
+    pass.read(g.unshadowed, Use::Sampled);
     pass.read(posed.scene, Use::AccelRead);
     pass.read(posed.bounds, Use::StorageRead);
     counters = pass.write(counters, Use::StorageWrite);
@@ -64,9 +65,9 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
                                                  .blockers = scene.blockers().address(),
                                                  .capsules = scene.capsules().address(),
                                                  .frame = frame,
-                                                 .evenSamples = samples_.slot(),
                                                  .depth = recorder.sampled(g.depth),
                                                  .normals = recorder.sampled(g.normals),
+                                                 .unshadowed = recorder.sampled(g.unshadowed),
                                                  .occluded = recorder.storage(traced),
                                                  .sampleCount = view.knobs.occlusion.samples,
                                                  .blockerCount = static_cast<uint32_t>(view.characters.size()),
