@@ -1,6 +1,6 @@
 // Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
 // Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; WORDS times 32 samples are looked at in one go; REFERENCE
-// jitters the points anew each frame.
+// jitters the points anew each frame; COMPUTE_BVH traces without ray queries.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -13,9 +13,11 @@
 #include "lib/hemisphere.glsl"
 #include "lib/sh.glsl"
 #include "lib/cone.glsl"
-#include "lib/intersect.glsl"
-#include "lib/mask_table.glsl"
+#ifdef COMPUTE_BVH
+#include "lib/bvh.glsl"
+#else
 #include "lib/ray_query.glsl"
+#endif
 #include "lib/traced.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Samples { vec3 direction[]; };

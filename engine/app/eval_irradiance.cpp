@@ -2,7 +2,7 @@
 #include "app/eval_cases.h"
 #include "gpu/dispatch.h"
 #include "render/shader_structs.h"
-#include "render/shadow/mask_table.h"
+#include "render/shadow/samples.h"
 
 #include <algorithm>
 #include <cmath>

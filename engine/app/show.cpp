@@ -20,8 +20,9 @@ ExitCode runInfo()
     fmt::print("timestamps {}\n",
                info.nanosecondsPerTick > 0 ? fmt::format("{} ns", info.nanosecondsPerTick) : "none: passes show no times");
     fmt::print("missing    {}\n", info.missingOptional.empty() ? "nothing" : fmt::format("{}", fmt::join(info.missingOptional, ", ")));
-    fmt::print("occlusion  {}\n",
-               info.rayQuery ? "ray-query: the device has ray queries in shaders" : "none: the device has no ray queries");
+    fmt::print("occlusion  {}\n", info.rayQuery
+                                      ? "ray-query: the device has ray queries in shaders"
+                                      : "compute-bvh, whatever occlusion.backend asks for: the device has no ray queries in shaders");
     const render::Knobs knobs = render::defaultKnobs(deviceClassOf(info));
     fmt::print("defaults   for a {}:\n", info.isCpu ? "CPU" : "GPU");
     for (const render::KnobDescription& knob : render::knobTable())

@@ -68,15 +68,6 @@ MorphStreams morphsOf(const scene::Mesh& mesh)
     return streams;
 }
 
-std::vector<mat4> restJoints(const scene::Model& model)
-{
-    scene::LocalPose pose;
-    setRest(pose, model);
-    std::vector<mat4> joints(model.joints.size()), nodes;
-    resolve(joints, nodes, pose, model);
-    return joints;
-}
-
 template <class T>
 std::optional<T>& slotOf(std::vector<std::optional<T>>& all, uint32_t index)
 {
@@ -146,25 +137,8 @@ void GpuScene::makeRest(uint32_t index)
     if (slotOf(rests_, index))
         return;
     ++changes_;
-    const scene::Model& model = assets_->models[index];
-    const scene::Mesh posed = posedMesh(model, restJoints(model), model.restMorphWeights);
-    rests_[index] = DeviceRest{upload(*device_, "rest positions", posed.positions), upload(*device_, "rest normals", posed.normals), {}};
-}
-
-void GpuScene::buildRest(uint32_t index)
-{
-    DeviceRest& rest = *rests_[index];
-    const DeviceModel& model = *models_[index];
-    if (rest.accel || model.triangleCount == 0)
-        return;
-    ++changes_;
-    const gpu::AccelSizes sizes = gpu::trianglesSizes(*device_, model.vertexCount, model.triangleCount, false);
-    rest.accel = gpu::Accel(*device_, "static triangles", VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, sizes.structure);
-    const gpu::Buffer scratch(*device_, "build scratch", sizes.scratch);
-    device_->submitNow([&](VkCommandBuffer commands) {
-        gpu::recordBuild(commands, rest.accel, {rest.positions.address(), model.indices.address(), model.vertexCount, model.triangleCount},
-                         false, scratch.address());
-    });
+    const scene::Mesh rest = restMesh(assets_->models[index]);
+    rests_[index] = DeviceRest{upload(*device_, "rest positions", rest.positions), upload(*device_, "rest normals", rest.normals), {}};
 }
 
 void GpuScene::makeCharacter(uint32_t slot, uint32_t model)
@@ -182,23 +156,8 @@ void GpuScene::makeCharacter(uint32_t slot, uint32_t model)
     made.normals = gpu::Buffer(*device_, "posed normals", vectorBytes);
     made.capsules = gpu::Buffer(*device_, "posed capsules", std::max<size_t>(skin.boneCount, 1) * sizeof(shader::CapsuleBlock));
     made.sphere = gpu::Buffer(*device_, "posed sphere", sizeof(shader::SphereBlock));
-    if (device_->info().rayQuery && streams.triangleCount > 0) {
-        const gpu::AccelSizes sizes = gpu::trianglesSizes(*device_, streams.vertexCount, streams.triangleCount, true);
-        made.accel = gpu::Accel(*device_, "posed triangles", VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, sizes.structure);
-        made.scratch = gpu::Buffer(*device_, "build scratch", sizes.scratch);
-    }
+    makeTracedCharacter(made, streams);
     character = std::move(made);
-}
-
-void GpuScene::makeSceneAccel(uint32_t instanceCount)
-{
-    if (instanceCount <= sceneInstances_)
-        return;
-    ++changes_;
-    sceneInstances_ = instanceCount;
-    const gpu::AccelSizes sizes = gpu::instancesSizes(*device_, instanceCount);
-    scene_ = gpu::Accel(*device_, "scene", VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, sizes.structure);
-    sceneScratch_ = gpu::Buffer(*device_, "build scratch", sizes.scratch);
 }
 
 void GpuScene::makeBounds(const FrameView& view)
@@ -227,6 +186,7 @@ void GpuScene::dropCharacters(const FrameView& view)
         return;
     scene_ = {};
     sceneScratch_ = {};
+    bvhScene_ = {};
     blockers_ = {};
     capsules_ = {};
     sceneInstances_ = capsuleCount_ = blockerCount_ = 0;
@@ -234,6 +194,7 @@ void GpuScene::dropCharacters(const FrameView& view)
 
 void GpuScene::prepare(const FrameView& view)
 {
+    useBackend(backendFor(view.knobs.occlusion.backend, device_->info().rayQuery));
     for (const StaticDraw& draw : view.statics) {
         makeModel(draw.model);
         makeRest(draw.model);
@@ -249,11 +210,9 @@ void GpuScene::prepare(const FrameView& view)
         ++changes_;
         environment = uploadEnvironment(*device_, assets_->environments[view.environment.image]);
     }
-    if (view.characters.empty() || !device_->info().rayQuery)
+    if (view.characters.empty())
         return;
-    for (const StaticDraw& draw : view.statics)
-        buildRest(draw.model);
-    makeSceneAccel(static_cast<uint32_t>(view.statics.size() + view.characters.size()));
+    makeTraced(view);
     makeBounds(view);
 }
 

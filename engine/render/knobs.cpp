@@ -82,7 +82,8 @@ using Reference = ReferenceKnobs;
 constexpr auto kOcclusion = &Knobs::occlusion;
 
 constexpr KnobDescription kTable[] = {
-    knob<kOcclusion, &Occlusion::backend>("occlusion.backend", kBackends, "what traces the rays; auto takes the fastest there is"),
+    knob<kOcclusion, &Occlusion::backend>("occlusion.backend", kBackends,
+                                          "what traces the rays; auto takes ray-query where the device has it"),
     knob<kOcclusion, &Occlusion::culling>("occlusion.culling", kCullings, "which rays are spared because no dynamic object can stop them"),
     knob<kOcclusion, &Occlusion::samples>("occlusion.samples", {32, 1024, 32}, "directions a traced pixel"),
     knob<kOcclusion, &Occlusion::scale>("occlusion.scale", kScales, "traced resolution along each axis, as a share of the frame's"),
@@ -146,6 +147,11 @@ std::optional<double> parseValue(const KnobDescription& knob, std::string_view t
 }
 
 } // namespace
+
+RayBackend backendFor(RayBackend wanted, bool hasRayQuery)
+{
+    return wanted == RayBackend::ComputeBvh || !hasRayQuery ? RayBackend::ComputeBvh : RayBackend::RayQuery;
+}
 
 std::span<const KnobDescription> knobTable() { return kTable; }
 

@@ -74,6 +74,9 @@ struct KnobDescription
     void (*write)(Knobs&, double);
 };
 
+/// What traces where `wanted` is asked for: ray queries only where the device has them, compute-bvh everywhere. Never Auto.
+RayBackend backendFor(RayBackend wanted, bool hasRayQuery);
+
 std::span<const KnobDescription> knobTable();
 
 /// As in "one of none direction length bones" and "32 to 1024, in steps of 32".

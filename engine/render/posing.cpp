@@ -33,23 +33,14 @@ float greatestScale(const mat4& matrix)
                         : std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
 }
 
-VkAccelerationStructureInstanceKHR instanceOf(const mat4& world, const gpu::Accel& accel, uint32_t mask)
-{
-    VkAccelerationStructureInstanceKHR instance{};
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            instance.transform.matrix[row][column] = world[column][row];
-    instance.instanceCustomIndex = mask & 0xffffffu;
-    instance.mask = mask & 0xffu;
-    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-    instance.accelerationStructureReference = accel.address();
-    return instance;
-}
-
 } // namespace
 
-void PosingSystem::makePipelines()
+void PosingSystem::makePipelines(RayBackend backend)
 {
+    if (backend == RayBackend::ComputeBvh && !bvhRefit_) {
+        bvhRefit_ = computePipeline(*device_, "bvh_refit.comp");
+        bvhScene_ = computePipeline(*device_, "bvh_scene.comp");
+    }
     if (skinning_)
         return;
     skinning_ = computePipeline(*device_, "skinning.comp");
@@ -133,47 +124,6 @@ void PosingSystem::declareSkinning(graph::FrameGraph& graph, const FrameView& vi
     });
 }
 
-void PosingSystem::declareBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)
-{
-    if (chosen_.empty()) {
-        graph.skip("triangle builds", "no pose changed");
-    } else {
-        graph::Pass pass = graph.add("triangle builds");
-        pass.read(posed.vertices, Use::AccelBuildInput);
-        posed.scene = pass.write(posed.scene, Use::AccelWrite);
-        pass.record([this, &view, &scene](graph::Recorder& recorder) {
-            for (const uint32_t i : chosen_) {
-                const CharacterDraw& draw = view.characters[i];
-                const DeviceModel& model = scene.model(draw.model);
-                const DeviceCharacter& character = scene.character(draw.slot);
-                if (character.accel)
-                    gpu::recordBuild(recorder.commands(), character.accel,
-                                     {character.positions.address(), model.indices.address(), model.vertexCount, model.triangleCount}, true,
-                                     character.scratch.address());
-            }
-        });
-    }
-
-    graph::Pass pass = graph.add("scene build");
-    pass.read(posed.vertices, Use::AccelBuildInput); // nothing but the order: behind the builds of this frame
-    posed.scene = pass.write(posed.scene, Use::AccelWrite);
-    pass.record([this, &view, &scene](graph::Recorder& recorder) {
-        const size_t most = view.statics.size() + view.characters.size();
-        const gpu::FrameBytes bytes = device_->frameBytes(most * sizeof(VkAccelerationStructureInstanceKHR));
-        uint32_t count = 0;
-        const auto append = [&](const VkAccelerationStructureInstanceKHR& instance) {
-            std::memcpy(bytes.mapped + count++ * sizeof(instance), &instance, sizeof(instance));
-        };
-        for (const StaticDraw& draw : view.statics)
-            if (const gpu::Accel& accel = scene.rest(draw.model).accel)
-                append(instanceOf(draw.world, accel, shader::kMaskStatic));
-        for (const CharacterDraw& draw : view.characters)
-            if (const gpu::Accel& accel = scene.character(draw.slot).accel)
-                append(instanceOf(draw.world, accel, shader::kMaskDynamic));
-        gpu::recordBuild(recorder.commands(), scene.scene(), bytes.address, count, scene.sceneScratch().address());
-    });
-}
-
 void PosingSystem::declareBounds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)
 {
     graph::Pass pass = graph.add("bounds");
@@ -206,21 +156,18 @@ Posed PosingSystem::declare(graph::FrameGraph& graph, const FrameView& view, Gpu
             graph.skip(pass, "no DynamicSkinned in the scene");
         return posed;
     }
-    makePipelines();
+    makePipelines(scene.backend());
     choose(view, scene);
     uint64_t bytes = 0;
     for (const CharacterDraw& draw : view.characters)
         bytes += scene.character(draw.slot).positions.bytes() + scene.character(draw.slot).normals.bytes();
     posed.vertices = graph.importBuffer("posed vertices", bytes);
     declareSkinning(graph, view, scene, posed);
-    if (!device_->info().rayQuery) {
-        for (const std::string_view pass : {"triangle builds", "scene build", "bounds"})
-            graph.skip(pass, "the device has no ray query");
-        return posed;
-    }
-    posed.scene = graph.importBuffer("scene", scene.scene().bytes());
+    posed.scene = graph.importBuffer("scene", scene.tracedBytes());
+    posed.sceneUse = scene.backend() == RayBackend::ComputeBvh ? Use::StorageRead : Use::AccelRead;
     posed.bounds = graph.importBuffer("bounds", scene.capsules().bytes());
-    declareBuilds(graph, view, scene, posed);
+    declareTriangleBuilds(graph, view, scene, posed);
+    declareSceneBuild(graph, view, scene, posed);
     declareBounds(graph, view, scene, posed);
     return posed;
 }

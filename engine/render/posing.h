@@ -1,5 +1,5 @@
-// Characters into their pose: skinning, the bounds of what came out, acceleration structures. A pose that did not change costs nothing;
-// when many change, the oldest go first and the rest wait a frame, wholly: picture and shadow of a character always agree.
+// Characters into their pose: skinning, the bounds of what came out, what rays are traced through. A pose that did not change costs
+// nothing; when many change, the oldest go first and the rest wait a frame, wholly: picture and shadow of a character always agree.
 #pragma once
 
 #include "graph/executor.h"
@@ -12,9 +12,10 @@ namespace antumbra::render {
 /// Handles behind which the frame's poses stand; absent without characters.
 struct Posed
 {
-    graph::BufferRef vertices; // every character's posed streams
-    graph::BufferRef bounds;   // BlockerBlock[] and CapsuleBlock[] in the world
-    graph::BufferRef scene;    // the top-level acceleration structure
+    graph::BufferRef vertices;                   // every character's posed streams
+    graph::BufferRef bounds;                     // BlockerBlock[] and CapsuleBlock[] in the world
+    graph::BufferRef scene;                      // what rays are traced through: GpuScene::tracedAddress
+    graph::Use sceneUse = graph::Use::AccelRead; // by a pass that traces rays through it
 };
 
 class PosingSystem
@@ -25,15 +26,19 @@ public:
     Posed declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene);
 
 private:
-    void makePipelines();
+    void makePipelines(RayBackend backend);
     void choose(const FrameView& view, GpuScene& scene);
     void declareSkinning(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
-    void declareBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
+    void declareTriangleBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
+    void declareSceneBuild(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
+    void recordRefits(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const;
+    void recordBvhScene(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const;
     void declareBounds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
 
     gpu::Device* device_;
     gpu::Pipeline skinning_, boneFit_, sphereFit_, blockers_;
-    std::vector<uint32_t> chosen_; // into FrameView::characters: posed anew this frame
+    gpu::Pipeline bvhRefit_, bvhScene_; // compute-bvh
+    std::vector<uint32_t> chosen_;      // into FrameView::characters: posed anew this frame
 };
 
 } // namespace antumbra::render

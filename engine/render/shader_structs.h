@@ -17,6 +17,8 @@ using uint = uint32_t;
 
 #include "shaders/shared/occlusion.h"
 
+#include "shaders/shared/bvh.h"
+
 #include "shaders/shared/composite.h"
 
 #include "shaders/shared/overlay.h"

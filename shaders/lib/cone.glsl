@@ -1,4 +1,4 @@
-// Cones that hold all rays from a point to a sphere or a capsule (Xu et al. 2022, eq. 4 and 5, as corrected in methods/conical-culling.md).
+// What holds all rays from a point to a sphere or a capsule (Xu et al. 2022, eq. 4 and 5, as corrected in methods/conical-culling.md).
 #ifndef LIB_CONE_GLSL
 #define LIB_CONE_GLSL
 
@@ -48,36 +48,6 @@ Cone coneOfSphere(vec3 p, vec3 n, vec3 centre, float radius)
     return coneAbout(to / distance, sine, arcSine(sine), distance + radius);
 }
 
-// Both spheres of a capsule lie in a convex cone, so their hull does. Half angles past a right angle hold everything.
-Cone coneOfCapsule(vec3 p, vec3 n, vec3 a, vec3 b, float radius)
-{
-    vec3 ab = b - a;
-    vec3 toA = a - p, toB = b - p;
-    float lengthA = length(toA), lengthB = length(toB);
-    float height = max(lengthA, lengthB) + radius;
-    float t = clamp(-dot(toA, ab) / max(dot(ab, ab), 1.0e-30), 0.0, 1.0);
-    if (min(length(toA + t * ab), min(lengthA, lengthB)) <= radius * (1.0 + 1.0e-6))
-        return wholeHemisphere(n, height);
-    vec3 axisA = toA / lengthA, axisB = toB / lengthB;
-    float sineA = min(radius / lengthA, 1.0), sineB = min(radius / lengthB, 1.0);
-    float angleA = arcSine(sineA), angleB = arcSine(sineB);
-    // Between the axes by the half chord: exact for small angles, where acos is not.
-    float between = 2.0 * arcSine(min(0.5 * length(axisA - axisB), 1.0));
-    if (between + angleB <= angleA)
-        return coneAbout(axisA, sineA, angleA, height);
-    if (between + angleA <= angleB)
-        return coneAbout(axisB, sineB, angleB, height);
-    float halfAngle = 0.5 * (between + angleA + angleB) + 1.0e-5;
-    if (halfAngle >= 1.5707)
-        return wholeHemisphere(n, height);
-    // Along the great circle from A to B, by the tangent at A.
-    vec3 tangent = axisB - axisA * dot(axisA, axisB);
-    float tangentLength = length(tangent);
-    float turn = halfAngle - angleA;
-    vec3 axis = tangentLength > 1.0e-7 ? normalize(axisA * cos(turn) + tangent * (sin(turn) / tangentLength)) : axisA;
-    return coneAbout(axis, sin(halfAngle), halfAngle, height);
-}
-
 // What every ray from the apex that meets a capsule obeys: it lies in the cone of the sphere about the capsule, and it leaves the plane
 // through apex and axis by no more than the radius seen from the nearest point of the axis. Two dot products a ray.
 struct CapsuleBound
@@ -93,13 +63,15 @@ CapsuleBound boundOfCapsule(vec3 middle, vec3 arm, float radius, float reach)
 {
     float t = clamp(-dot(middle, arm) / max(dot(arm, arm), 1.0e-30), -1.0, 1.0);
     vec3 nearest = middle + t * arm;
-    float near2 = dot(nearest, nearest);
-    // All products err by some units in the last place of their factors' lengths; so much is given on either side.
-    float least = sqrt(max(dot(middle, middle) - reach * reach, 0.0)) * (1.0 - 1.0e-5) - 2.0e-6 * reach;
+    float near2 = max(dot(nearest, nearest), 1.0e-30);
+    float beyond2 = dot(middle, middle) - reach * reach;
+    float beyond = sqrt(max(beyond2, 0.0));
     vec3 across = cross(middle, arm);
-    float most = radius * sqrt((1.0 + 1.0e-5) * dot(across, across) / max(near2, 1.0e-30)) + 1.0e-6 * reach * reach;
+    // The products are off by some units in the last place of their factors' lengths; |middle| is at most beyond + reach.
+    float least = beyond - 1.0e-5 * (beyond + reach);
+    float most = radius * sqrt(dot(across, across) / near2) + 2.0e-6 * (beyond + reach) * reach;
     bool isInside = near2 <= radius * radius;
-    return CapsuleBound(middle, isInside || dot(middle, middle) <= reach * reach ? -1.0e30 : least, across, isInside ? 1.0e30 : most);
+    return CapsuleBound(middle, isInside || beyond2 <= 0.0 ? -1.0e30 : least, across, isInside ? 1.0e30 : most);
 }
 
 bool mayMeet(CapsuleBound bound, vec3 direction)

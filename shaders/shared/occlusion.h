@@ -10,10 +10,6 @@ const uint kCullBones = 3u;
 const uint kMaskStatic = 1u;
 const uint kMaskDynamic = 2u;
 
-// The mask table: octahedral axis x sine of the half angle -> samples that may lie in such a cone (methods/conical-culling.md).
-const uint kMaskAxisCells = 32u;
-const uint kMaskAngleCells = 16u;
-
 // One character, in the world.
 struct BlockerBlock
 {
@@ -44,9 +40,8 @@ struct BlockerDispatch
 
 struct OcclusionTrace
 {
-    uint64_t scene; // top-level acceleration structure
+    uint64_t scene; // top-level acceleration structure, or BvhScene
     uint64_t samples; // vec3[sampleCount], local directions
-    uint64_t masks; // uint[cell][sampleCount / 32]
     uint64_t counters; // CounterBlock
     uint64_t blockers; // BlockerBlock[blockerCount]
     uint64_t capsules; // CapsuleBlock[]

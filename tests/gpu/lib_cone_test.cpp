@@ -20,10 +20,18 @@ struct ConeOut
     float cosine, chord, halfAngle, height;
     uint32_t all, holds;
 };
+struct CapsuleBound
+{
+    vec3 towards;
+    float least;
+    vec3 across;
+    float most;
+};
 struct Out
 {
-    ConeOut capsule, sphere;
-    uint32_t isBehind, hitsCapsule, hitsSphere;
+    ConeOut sphere;
+    CapsuleBound capsule;
+    uint32_t mayMeetCapsule, isBehind, hitsSphere;
     float share;
 };
 
@@ -35,7 +43,7 @@ class LibCone : public DeviceTest
 protected:
     std::vector<Out> run(const std::vector<In>& inputs)
     {
-        return runKernel<Out>(device(), "lib_functions.comp", "CONE_OF_CAPSULE", inputs);
+        return runKernel<Out>(device(), "lib_functions.comp", "BOUNDS", inputs);
     }
 };
 
@@ -154,36 +162,55 @@ TEST_F(LibCone, RaysHitAsInDouble)
     const std::vector<Out> outputs = run(inputs);
     size_t hits = 0, judged = 0;
     for (size_t i = 0; i < inputs.size(); ++i) {
-        const double toCapsule = rayToSegment(inputs[i], dvec3(inputs[i].b)) - double{inputs[i].radius};
         const double toSphere = rayToSegment(inputs[i], dvec3(inputs[i].a)) - double{inputs[i].radius};
-        hits += toCapsule <= 0 ? 1 : 0;
-        if (std::abs(toCapsule) > lengthError(inputs[i])) {
-            ++judged;
-            ASSERT_EQ(outputs[i].hitsCapsule, toCapsule < 0 ? 1u : 0u) << i << " by " << toCapsule;
-        }
+        hits += toSphere <= 0 ? 1 : 0;
         if (std::abs(toSphere) > lengthError(inputs[i])) {
+            ++judged;
             ASSERT_EQ(outputs[i].hitsSphere, toSphere < 0 ? 1u : 0u) << i << " by " << toSphere;
         }
     }
     EXPECT_GT(judged, kCount * 9 / 10);
-    EXPECT_GT(hits, kCount / 4);
+    EXPECT_GT(hits, kCount / 8);
     EXPECT_LT(hits, kCount * 9 / 10);
 }
 
-TEST_F(LibCone, EveryRayThatHitsLiesInTheCone)
+TEST_F(LibCone, EveryRayThatHitsIsHeld)
 {
     const std::vector<In> inputs = randomInputs();
     const std::vector<Out> outputs = run(inputs);
     for (size_t i = 0; i < inputs.size(); ++i) {
-        const auto expectHeld = [&](const ConeOut& cone, const dvec3& b) {
-            if (rayToSegment(inputs[i], b) > double{inputs[i].radius})
-                return;
+        const auto hits = [&](const dvec3& b) { return rayToSegment(inputs[i], b) <= double{inputs[i].radius}; };
+        const ConeOut& cone = outputs[i].sphere;
+        if (hits(dvec3(inputs[i].a))) {
             EXPECT_TRUE(cone.holds) << i << ' ' << cone.halfAngle;
             EXPECT_TRUE(cone.all != 0 || glm::dot(inputs[i].direction, cone.axis) >= cone.cosine) << i << ' ' << cone.halfAngle;
-        };
-        expectHeld(outputs[i].sphere, dvec3(inputs[i].a));
-        expectHeld(outputs[i].capsule, dvec3(inputs[i].b));
+        }
+        if (hits(dvec3(inputs[i].b))) {
+            EXPECT_TRUE(outputs[i].mayMeetCapsule) << i;
+        }
     }
+}
+
+// From a few radii off, a long capsule must not hold what misses it by as much again as it is thick.
+TEST_F(LibCone, CapsulesHoldFewRaysThatMiss)
+{
+    RandomInputs random(3);
+    std::vector<In> inputs(kCount);
+    for (In& in : inputs) {
+        in.n = {0, 1, 0};
+        in.a = vec3(random.direction());
+        in.b = in.a + vec3(random.direction() * 0.5);
+        in.radius = 0.08f;
+        in.direction = vec3(random.direction());
+    }
+    const std::vector<Out> outputs = run(inputs);
+    size_t hits = 0, held = 0;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        hits += rayToSegment(inputs[i], dvec3(inputs[i].b)) <= double{inputs[i].radius} ? 1 : 0;
+        held += outputs[i].mayMeetCapsule;
+    }
+    EXPECT_GT(hits, kCount / 100);
+    EXPECT_LT(held, hits * 3 / 2);
 }
 
 TEST_F(LibCone, ConesHoldLittleMoreThanTheSphere)
@@ -201,20 +228,6 @@ TEST_F(LibCone, ConesHoldLittleMoreThanTheSphere)
     }
 }
 
-TEST_F(LibCone, ACapsuleWithoutLengthIsASphere)
-{
-    std::vector<In> inputs = randomInputs();
-    for (In& in : inputs)
-        in.b = in.a;
-    for (const Out& out : run(inputs)) {
-        ASSERT_EQ(out.capsule.all, out.sphere.all);
-        ASSERT_LT(glm::distance(out.capsule.axis, out.sphere.axis), 1e-6f);
-        ASSERT_FLOAT_EQ(out.capsule.halfAngle, out.sphere.halfAngle);
-        ASSERT_FLOAT_EQ(out.capsule.height, out.sphere.height);
-        ASSERT_EQ(out.hitsCapsule, out.hitsSphere);
-    }
-}
-
 TEST_F(LibCone, FiniteForEveryFiniteInput)
 {
     constexpr float kValues[] = {0, 1, -1e18f, 1e18f, 1e-40f, -1e-20f, 1e-30f, 3e17f};
@@ -227,11 +240,13 @@ TEST_F(LibCone, FiniteForEveryFiniteInput)
         in.radius = std::abs(value());
     }
     const std::vector<Out> outputs = run(inputs);
-    for (size_t i = 0; i < outputs.size(); ++i)
-        for (const ConeOut& cone : {outputs[i].sphere, outputs[i].capsule})
-            ASSERT_TRUE(std::isfinite(cone.axis.x + cone.axis.y + cone.axis.z + cone.cosine + cone.chord + cone.halfAngle + cone.height) &&
-                        std::isfinite(outputs[i].share))
-                << i;
+    for (size_t i = 0; i < outputs.size(); ++i) {
+        const ConeOut& cone = outputs[i].sphere;
+        const CapsuleBound& bound = outputs[i].capsule;
+        ASSERT_TRUE(std::isfinite(cone.axis.x + cone.axis.y + cone.axis.z + cone.cosine + cone.chord + cone.halfAngle + cone.height)) << i;
+        ASSERT_TRUE(std::isfinite(outputs[i].share)) << i;
+        ASSERT_FALSE(std::isnan(bound.least) || std::isnan(bound.most)) << i;
+    }
 }
 
 } // namespace

@@ -9,7 +9,6 @@
 #include "lib/sh.glsl"
 #include "lib/cone.glsl"
 #include "lib/intersect.glsl"
-#include "lib/mask_table.glsl"
 #include "lib/compose.glsl"
 #include "lib/tone.glsl"
 
@@ -19,11 +18,11 @@ struct In { float sine; };
 struct Out { float angle; };
 Out evaluate(In x) { return Out(arcSine(x.sine)); }
 
-#elif defined(CONE_OF_CAPSULE)
+#elif defined(BOUNDS)
 
 struct In { vec3 p; vec3 n; vec3 a; vec3 b; float radius; vec3 direction; };
 struct ConeOut { vec3 axis; float cosine; float chord; float halfAngle; float height; uint all; uint holds; };
-struct Out { ConeOut capsule; ConeOut sphere; uint isBehind; uint hitsCapsule; uint hitsSphere; float share; };
+struct Out { ConeOut sphere; CapsuleBound capsule; uint mayMeetCapsule; uint isBehind; uint hitsSphere; float share; };
 ConeOut described(Cone cone, vec3 direction)
 {
     return ConeOut(cone.axis, cone.cosine, cone.chord, cone.halfAngle, cone.height, uint(cone.all), uint(holds(cone, direction)));
@@ -31,10 +30,11 @@ ConeOut described(Cone cone, vec3 direction)
 // The sphere is the one at a.
 Out evaluate(In x)
 {
-    Cone capsule = coneOfCapsule(x.p, x.n, x.a, x.b, x.radius), sphere = coneOfSphere(x.p, x.n, x.a, x.radius);
-    return Out(described(capsule, x.direction), described(sphere, x.direction), uint(isBehind(x.p, x.n, x.a, x.radius)),
-               uint(hitsCapsule(x.p, x.direction, x.a, x.b, x.radius)), uint(hitsSphere(x.p, x.direction, x.a, x.radius)),
-               greatestShare(sphere, x.n));
+    Cone sphere = coneOfSphere(x.p, x.n, x.a, x.radius);
+    vec3 arm = 0.5 * (x.b - x.a);
+    CapsuleBound capsule = boundOfCapsule(0.5 * ((x.a - x.p) + (x.b - x.p)), arm, x.radius, x.radius + 1.0005 * length(arm));
+    return Out(described(sphere, x.direction), capsule, uint(mayMeet(capsule, x.direction)), uint(isBehind(x.p, x.n, x.a, x.radius)),
+               uint(hitsSphere(x.p, x.direction, x.a, x.radius)), greatestShare(sphere, x.n));
 }
 
 #elif defined(OCTAHEDRAL)
@@ -73,12 +73,6 @@ Out evaluate(In x)
     shBasis3(x.direction, result.basis);
     return result;
 }
-
-#elif defined(MASK_CELL)
-
-struct In { vec3 axis; float sine; };
-struct Out { uint cell; };
-Out evaluate(In x) { return Out(maskCell(x.axis, x.sine)); }
 
 #elif defined(RAY_ORIGIN)
 

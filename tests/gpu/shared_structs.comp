@@ -7,6 +7,7 @@
 #include "shared/scene.h"
 #include "shared/skinning.h"
 #include "shared/occlusion.h"
+#include "shared/bvh.h"
 #include "shared/composite.h"
 #include "shared/eval.h"
 
@@ -185,20 +186,66 @@ void echo(OcclusionTrace b)
 {
     put(b.scene);
     put(b.samples);
-    put(b.masks);
     put(b.counters);
-    put(b.frame);
-    put(b.evenSamples);
     put(b.blockers);
     put(b.capsules);
+    put(b.frame);
     put(b.depth);
     put(b.normals);
+    put(b.unshadowed);
     put(b.occluded);
     put(b.sampleCount);
     put(b.blockerCount);
     put(b.tolerance);
     put(b.pixelScale);
     put(b.frameIndex);
+}
+
+#elif defined(BVH_NODE)
+
+#define Block BvhNode
+void echo(BvhNode b)
+{
+    put(b.lowest);
+    put(b.firstTriangle);
+    put(b.highest);
+    put(b.triangleCount);
+}
+
+#elif defined(BVH_INSTANCE) || defined(BVH_PLACEMENT)
+
+void echoInstance(BvhInstance b)
+{
+    for (int i = 0; i < 3; ++i)
+        put(b.localFromWorld[i]);
+    put(b.nodes);
+    put(b.positions);
+    put(b.indices);
+    put(b.lowest);
+    put(b.leafCount);
+    put(b.highest);
+    put(b.mask);
+}
+#ifdef BVH_INSTANCE
+#define Block BvhInstance
+void echo(BvhInstance b) { echoInstance(b); }
+#else
+#define Block BvhPlacement
+void echo(BvhPlacement b)
+{
+    put(b.worldFromLocal);
+    echoInstance(b.instance);
+}
+#endif
+
+#elif defined(BVH_SCENE)
+
+#define Block BvhScene
+void echo(BvhScene b)
+{
+    put(b.instances);
+    put(b.instanceCount);
+    put(b.padding);
 }
 
 #elif defined(COUNTER_BLOCK)

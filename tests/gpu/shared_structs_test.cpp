@@ -113,9 +113,37 @@ TEST_F(SharedStructs, BlockerSource)
 TEST_F(SharedStructs, OcclusionTrace)
 {
     expectSameLayout<shader::OcclusionTrace>("OCCLUSION_TRACE", [](const auto& b) {
-        return wordsOf(b.scene, b.samples, b.masks, b.counters, b.frame, b.evenSamples, b.blockers, b.capsules, b.depth, b.normals,
-                       b.occluded, b.sampleCount, b.blockerCount, b.tolerance, b.pixelScale, b.frameIndex);
+        return wordsOf(b.scene, b.samples, b.counters, b.blockers, b.capsules, b.frame, b.depth, b.normals, b.unshadowed, b.occluded,
+                       b.sampleCount, b.blockerCount, b.tolerance, b.pixelScale, b.frameIndex);
     });
+}
+
+TEST_F(SharedStructs, BvhNode)
+{
+    expectSameLayout<shader::BvhNode>("BVH_NODE",
+                                      [](const auto& b) { return wordsOf(b.lowest, b.firstTriangle, b.highest, b.triangleCount); });
+}
+
+Words instanceWords(const shader::BvhInstance& b)
+{
+    return wordsOf(b.localFromWorld, b.nodes, b.positions, b.indices, b.lowest, b.leafCount, b.highest, b.mask);
+}
+
+TEST_F(SharedStructs, BvhInstance) { expectSameLayout<shader::BvhInstance>("BVH_INSTANCE", instanceWords); }
+
+TEST_F(SharedStructs, BvhPlacement)
+{
+    expectSameLayout<shader::BvhPlacement>("BVH_PLACEMENT", [](const auto& b) {
+        Words words = wordsOf(b.worldFromLocal);
+        const Words instance = instanceWords(b.instance);
+        words.insert(words.end(), instance.begin(), instance.end());
+        return words;
+    });
+}
+
+TEST_F(SharedStructs, BvhScene)
+{
+    expectSameLayout<shader::BvhScene>("BVH_SCENE", [](const auto& b) { return wordsOf(b.instances, b.instanceCount, b.padding); });
 }
 
 TEST_F(SharedStructs, CounterBlock)

@@ -14,7 +14,7 @@ using testing::Not;
 const std::vector<std::string> kPassesOfMotion{"skinning",        "triangle builds",  "scene build",       "bounds",
                                                "occlusion trace", "occlusion filter"};
 
-class AbsenceTest : public DeviceTest
+class AbsenceTest : public BackendTest<Backend>
 {
 };
 
@@ -36,9 +36,10 @@ std::vector<std::string> stepsOf(Shown& shown)
     return names;
 }
 
-TEST_F(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
+TEST_P(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
 {
     Shown still(device(), atRest(namedScene("plaza")));
+    still.set("occlusion.backend", backend().name);
     still.set("occlusion.filter", "5");
     still.set("occlusion.scale", "1/2");
     still.draw();
@@ -54,6 +55,7 @@ TEST_F(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
         EXPECT_THAT(stepsOf(still), Not(Contains(pass)));
 
     Shown moving(device(), namedScene("plaza"));
+    moving.set("occlusion.backend", backend().name);
     moving.set("occlusion.filter", "5");
     moving.set("occlusion.scale", "1/2");
     moving.draw();
@@ -61,7 +63,7 @@ TEST_F(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
 }
 
 /// Device bytes that the scene takes once it runs steadily, whatever stood on the device before.
-uint64_t bytesOf(gpu::Device& device, const scene::SceneFile& scene, const char* samples)
+uint64_t bytesOf(gpu::Device& device, const Backend& backend, const scene::SceneFile& scene, const char* samples)
 {
     for (uint32_t frame = 0; frame < 2 * gpu::kFramesInFlight; ++frame) { // what was retired before is freed
         device.beginFrame();
@@ -69,30 +71,32 @@ uint64_t bytesOf(gpu::Device& device, const scene::SceneFile& scene, const char*
     }
     const uint64_t before = device.memory().stats().usedBytes;
     Shown shown(device, scene);
+    shown.set("occlusion.backend", backend.name);
     shown.set("occlusion.samples", samples);
     shown.set("occlusion.culling", "bones");
     shown.draw(8);
     return shown.renderer().memory().used - before;
 }
 
-TEST_F(AbsenceTest, WithoutDynamicSkinnedOcclusionTakesNoMemory)
+TEST_P(AbsenceTest, WithoutDynamicSkinnedOcclusionTakesNoMemory)
 {
     const scene::SceneFile plaza = namedScene("plaza");
-    bytesOf(device(), plaza, "1024"); // grows the device's own stores to what any of these needs
-    const uint64_t still = bytesOf(device(), atRest(plaza), "64");
-    EXPECT_EQ(bytesOf(device(), atRest(plaza), "1024"), still) << "samples and masks are made for nobody";
-    EXPECT_GT(bytesOf(device(), plaza, "64"), still + (uint64_t{1} << 17)) << "masks alone are more";
+    bytesOf(device(), backend(), plaza, "1024"); // grows the device's own stores to what any of these needs
+    const uint64_t still = bytesOf(device(), backend(), atRest(plaza), "64");
+    EXPECT_EQ(bytesOf(device(), backend(), atRest(plaza), "1024"), still) << "samples and masks are made for nobody";
+    EXPECT_GT(bytesOf(device(), backend(), plaza, "64"), still + (uint64_t{1} << 17)) << "masks alone are more";
 
     scene::SceneFile empty = emptyScene();
     empty.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, vec3(4))};
     scene::SceneFile sphere = empty;
     sphere.entities.push_back(movingShape(MeshKind::Sphere, {0, 0.5f, 0}, vec3(1)));
-    EXPECT_GT(bytesOf(device(), sphere, "64"), bytesOf(device(), empty, "64"));
+    EXPECT_GT(bytesOf(device(), backend(), sphere, "64"), bytesOf(device(), backend(), empty, "64"));
 }
 
-TEST_F(AbsenceTest, WhatLeavesTheSceneTakesItsPassesAlong)
+TEST_P(AbsenceTest, WhatLeavesTheSceneTakesItsPassesAlong)
 {
     Shown shown(device(), namedScene("plaza"));
+    shown.set("occlusion.backend", backend().name);
     shown.draw(4);
     EXPECT_THAT(stepsOf(shown), Contains("occlusion trace"));
     shown.view().characters.clear();
@@ -101,9 +105,10 @@ TEST_F(AbsenceTest, WhatLeavesTheSceneTakesItsPassesAlong)
         EXPECT_THAT(stepsOf(shown), Not(Contains(pass)));
 }
 
-TEST_F(AbsenceTest, APoseThatDidNotChangeIsNotBuiltAgain)
+TEST_P(AbsenceTest, APoseThatDidNotChangeIsNotBuiltAgain)
 {
     Shown shown(device(), namedScene("plaza"));
+    shown.set("occlusion.backend", backend().name);
     shown.draw(2);
     EXPECT_THAT(stepsOf(shown), Not(Contains("triangle builds")));
     EXPECT_THAT(stepsOf(shown), Not(Contains("skinning")));
@@ -111,6 +116,8 @@ TEST_F(AbsenceTest, APoseThatDidNotChangeIsNotBuiltAgain)
     shown.draw();
     EXPECT_THAT(stepsOf(shown), Contains("triangle builds"));
 }
+
+INSTANTIATE_TEST_SUITE_P(Truth, AbsenceTest, testing::Values(kRayQuery, kComputeBvh), backendName);
 
 } // namespace
 } // namespace antumbra::truth

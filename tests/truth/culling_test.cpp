@@ -42,17 +42,19 @@ Case characterCase(const std::string& name, const std::string& file)
             .file = sharedCharacter(file)};
 }
 
-class CullingTest : public DeviceTest, public testing::WithParamInterface<Case>
+class CullingTest : public BackendTest<testing::tuple<Case, Backend>>
 {
 protected:
     void SetUp() override
     {
-        DeviceTest::SetUp();
+        BackendTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        if (!GetParam().file.empty() && !std::filesystem::exists(GetParam().file))
-            GTEST_SKIP() << "there is no " << GetParam().file;
+        if (!test().file.empty() && !std::filesystem::exists(test().file))
+            GTEST_SKIP() << "there is no " << test().file;
     }
+
+    [[nodiscard]] static const Case& test() { return testing::get<Case>(GetParam()); }
 };
 
 /// The pictures are half floats: sums that differ by a share s of their value come out a step apart in a share s / step of the pixels,
@@ -77,8 +79,9 @@ void expectEqual(const scene::ImageF& culled, const scene::ImageF& unculled, con
 
 TEST_P(CullingTest, ChangesNothing)
 {
-    Shown shown(device(), GetParam().scene());
-    for (const float seconds : GetParam().seconds) {
+    Shown shown(device(), test().scene());
+    shown.set("occlusion.backend", backend().name);
+    for (const float seconds : test().seconds) {
         shown.advance(seconds);
         shown.set("occlusion.culling", "none");
         const scene::ImageF unculled = shown.capture(Aov::Occluded);
@@ -95,8 +98,9 @@ TEST_P(CullingTest, ChangesNothing)
 
 TEST_P(CullingTest, SparesRays)
 {
-    Shown shown(device(), GetParam().scene());
-    shown.advance(GetParam().seconds.front());
+    Shown shown(device(), test().scene());
+    shown.set("occlusion.backend", backend().name);
+    shown.advance(test().seconds.front());
     const auto tracedWith = [&](const char* culling) {
         shown.set("occlusion.culling", culling);
         const shader::CounterBlock counters = shown.counters();
@@ -112,8 +116,9 @@ TEST_P(CullingTest, SparesRays)
 
 TEST_P(CullingTest, HoldsForSampleCountsThatFillNoWholeMask)
 {
-    Shown shown(device(), GetParam().scene());
-    shown.advance(GetParam().seconds.front());
+    Shown shown(device(), test().scene());
+    shown.set("occlusion.backend", backend().name);
+    shown.advance(test().seconds.front());
     shown.set("occlusion.samples", "160");
     shown.set("occlusion.culling", "none");
     const scene::ImageF unculled = shown.capture(Aov::Occluded);
@@ -122,20 +127,34 @@ TEST_P(CullingTest, HoldsForSampleCountsThatFillNoWholeMask)
     expectEqual(shown.capture(Aov::Occluded), unculled, unshadowed, surfaceOf(shown.capture(Aov::Depth)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Truth, CullingTest,
-                         testing::Values(Case{"Plaza", [] { return namedScene("plaza"); }, {0, 0.35f, 0.5f}, ""},
-                                         Case{"Hall", [] { return namedScene("hall"); }, {0, 0.35f}, ""},
-                                         Case{"Crowd",
-                                              [] {
-                                                  return namedScene("crowd", {{"crowd.count", "10"}});
-                                              },
-                                              {0.2f, 0.45f},
-                                              ""},
-                                         characterCase("CesiumMan", "CesiumMan.glb"), characterCase("Fox", "Fox.glb"),
-                                         characterCase("RiggedFigure", "RiggedFigure.glb"),
-                                         characterCase("AnimatedMorphCube", "AnimatedMorphCube.glb"),
-                                         characterCase("Robot", "raylib_robot.glb")),
-                         [](const auto& test) { return test.param.name; });
+std::string caseName(const testing::TestParamInfo<testing::tuple<Case, Backend>>& test) { return testing::get<Case>(test.param).name; }
+
+Case plaza()
+{
+    return {"Plaza", [] { return namedScene("plaza"); }, {0, 0.35f, 0.5f}, ""};
+}
+Case hall()
+{
+    return {"Hall", [] { return namedScene("hall"); }, {0, 0.35f}, ""};
+}
+Case crowd()
+{
+    return {"Crowd", [] { return namedScene("crowd", {{"crowd.count", "10"}}); }, {0.2f, 0.45f}, ""};
+}
+
+INSTANTIATE_TEST_SUITE_P(RayQuery, CullingTest,
+                         testing::Combine(testing::Values(plaza(), hall(), crowd(), characterCase("CesiumMan", "CesiumMan.glb"),
+                                                          characterCase("Fox", "Fox.glb"),
+                                                          characterCase("RiggedFigure", "RiggedFigure.glb"),
+                                                          characterCase("AnimatedMorphCube", "AnimatedMorphCube.glb"),
+                                                          characterCase("Robot", "raylib_robot.glb")),
+                                          testing::Values(kRayQuery)),
+                         caseName);
+INSTANTIATE_TEST_SUITE_P(ComputeBvh, CullingTest,
+                         testing::Combine(testing::Values(plaza(), hall(), characterCase("CesiumMan", "CesiumMan.glb"),
+                                                          characterCase("AnimatedMorphCube", "AnimatedMorphCube.glb")),
+                                          testing::Values(kComputeBvh)),
+                         caseName);
 
 } // namespace
 } // namespace antumbra::truth

@@ -16,6 +16,10 @@ class PropertyTest : public DeviceTest
 {
 };
 
+class BlockingTest : public BackendTest<Backend>
+{
+};
+
 TEST_F(PropertyTest, IrradianceIsNeverNegativeAndNeverMoreThanUnshadowed)
 {
     for (const char* name : {"plaza", "hall", "crowd"})
@@ -100,14 +104,16 @@ TEST_F(PropertyTest, TurningWorldAndLightTogetherChangesNothing)
     EXPECT_GT(rmse(turned.capture(Aov::Unshadowed), unshadowed, surface) / light, 0.03);
 }
 
-TEST_F(PropertyTest, ADynamicObjectInAClosedStaticBoxCastsNothing)
+TEST_P(BlockingTest, ADynamicObjectInAClosedStaticBoxCastsNothing)
 {
     scene::SceneFile scene = emptyScene();
     scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {6, 1, 6}), movingShape(MeshKind::Sphere, {0, 0.6f, 0}, vec3(0.9f)),
                       staticShape(MeshKind::Cube, {0, 0.6f, 0}, vec3(1.1f))};
     Shown boxed(device(), scene);
+    boxed.set("occlusion.backend", backend().name);
     scene.entities.pop_back();
     Shown open(device(), scene);
+    open.set("occlusion.backend", backend().name);
     for (const char* culling : {"none", "direction", "length", "bones"}) {
         SCOPED_TRACE(culling);
         boxed.set("occlusion.culling", culling);
@@ -117,7 +123,7 @@ TEST_F(PropertyTest, ADynamicObjectInAClosedStaticBoxCastsNothing)
     }
 }
 
-TEST_F(PropertyTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
+TEST_P(BlockingTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
 {
     // The wall stands at x = 0, the sphere on its right; uniform light comes from above as well, so the left is lit but never darkened.
     scene::SceneFile scene = emptyScene();
@@ -126,6 +132,7 @@ TEST_F(PropertyTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
     scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {6, 1, 6}), staticShape(MeshKind::Cube, {0, 1, 0}, {0.1f, 2, 20}),
                       movingShape(MeshKind::Sphere, {1, 0.5f, 0}, vec3(1))};
     Shown shown(device(), scene);
+    shown.set("occlusion.backend", backend().name);
     const scene::ImageF depth = shown.capture(Aov::Depth), occluded = shown.capture(Aov::Occluded);
     float greatestLeft = 0, greatestRight = 0;
     for (const size_t pixel : surfaceOf(depth)) {
@@ -139,6 +146,8 @@ TEST_F(PropertyTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
     EXPECT_EQ(greatestLeft, 0.0f);
     EXPECT_GT(greatestRight, 1.0f);
 }
+
+INSTANTIATE_TEST_SUITE_P(Truth, BlockingTest, testing::Values(kRayQuery, kComputeBvh), backendName);
 
 } // namespace
 } // namespace antumbra::truth

@@ -14,6 +14,10 @@ class ReferenceTest : public DeviceTest
 {
 };
 
+class FormFactorTest : public BackendTest<Backend>
+{
+};
+
 scene::SceneFile sphereOnPlane()
 {
     scene::SceneFile scene = emptyScene();
@@ -107,18 +111,20 @@ FormFactorError formFactorError(Shown& shown, const scene::ImageF& depth, const 
     return error;
 }
 
-TEST_F(ReferenceTest, ASphereOnAPlaneHidesItsFormFactor)
+TEST_P(FormFactorTest, TheReferenceFindsIt)
 {
     Shown shown(device(), sphereOnPlane());
+    shown.set("occlusion.backend", backend().name);
     const FormFactorError error = formFactorError(shown, shown.capture(Aov::Depth), shown.reference(4096));
     EXPECT_LT(error.rmse, 0.001);
     EXPECT_NEAR(error.bias, 0, 0.0003) << "the sphere's facets alone make 0.00013";
     EXPECT_LT(error.greatest, 0.006);
 }
 
-TEST_F(ReferenceTest, ThePassFindsTheFormFactorWithEveryCulling)
+TEST_P(FormFactorTest, ThePassFindsItWithEveryCulling)
 {
     Shown shown(device(), sphereOnPlane());
+    shown.set("occlusion.backend", backend().name);
     shown.set("occlusion.samples", "1024");
     const scene::ImageF depth = shown.capture(Aov::Depth);
     for (const char* culling : {"none", "direction", "length", "bones"}) {
@@ -130,6 +136,8 @@ TEST_F(ReferenceTest, ThePassFindsTheFormFactorWithEveryCulling)
         EXPECT_LT(error.greatest, 0.008);
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Truth, FormFactorTest, testing::Values(kRayQuery, kComputeBvh), backendName);
 
 } // namespace
 } // namespace antumbra::truth

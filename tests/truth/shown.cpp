@@ -49,6 +49,11 @@ shader::CounterBlock Shown::counters()
     return renderer_.report().counters;
 }
 
+std::string backendName(const testing::TestParamInfo<Backend>& test)
+{
+    return test.param.backend == render::RayBackend::RayQuery ? "RayQuery" : "ComputeBvh";
+}
+
 vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, float depthView)
 {
     const vec2 size(extent);

@@ -34,6 +34,42 @@ private:
     render::FrameView view_;
 };
 
+/// occlusion.backend, by name.
+struct Backend
+{
+    std::string_view name;
+    render::RayBackend backend;
+
+    friend void PrintTo(const Backend& backend, std::ostream* out) { *out << backend.name; }
+};
+
+inline constexpr Backend kRayQuery{"ray-query", render::RayBackend::RayQuery};
+inline constexpr Backend kComputeBvh{"compute-bvh", render::RayBackend::ComputeBvh};
+
+/// For what holds whatever traces the rays. `Param` is a Backend, or a tuple with one. Skipped where the device lacks it.
+template <class Param>
+class BackendTest : public DeviceTest, public testing::WithParamInterface<Param>
+{
+protected:
+    void SetUp() override
+    {
+        DeviceTest::SetUp();
+        if (!IsSkipped() && !HasFatalFailure() && render::backendFor(backend().backend, device().info().rayQuery) != backend().backend)
+            GTEST_SKIP() << "the device has no " << backend().name;
+    }
+
+    [[nodiscard]] static const Backend& backend()
+    {
+        if constexpr (std::is_same_v<Param, Backend>)
+            return BackendTest::GetParam();
+        else
+            return testing::get<Backend>(BackendTest::GetParam());
+    }
+};
+
+/// As in "RayQuery" for GoogleTest, which takes no dashes.
+std::string backendName(const testing::TestParamInfo<Backend>& test);
+
 /// Where the surface of a pixel is; view depth in metres, as Aov::Depth has it.
 vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, float depthView);
 

@@ -53,6 +53,15 @@ TEST(Knobs, DefaultsReadBackToThemselves)
     }
 }
 
+TEST(Knobs, TheBackendIsTheOneAskedForWhereTheDeviceHasIt)
+{
+    EXPECT_EQ(backendFor(RayBackend::Auto, true), RayBackend::RayQuery);
+    EXPECT_EQ(backendFor(RayBackend::RayQuery, true), RayBackend::RayQuery);
+    EXPECT_EQ(backendFor(RayBackend::ComputeBvh, true), RayBackend::ComputeBvh);
+    for (const RayBackend wanted : {RayBackend::Auto, RayBackend::RayQuery, RayBackend::ComputeBvh})
+        EXPECT_EQ(backendFor(wanted, false), RayBackend::ComputeBvh);
+}
+
 TEST(Knobs, EveryChoiceReachesItsOwnField)
 {
     for (const KnobDescription& knob : knobTable())

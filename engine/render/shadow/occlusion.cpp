@@ -1,6 +1,6 @@
 #include "render/shadow/occlusion.h"
 
-#include "render/shadow/mask_table.h"
+#include "render/shadow/samples.h"
 
 namespace antumbra::render {
 
@@ -16,27 +16,26 @@ uint32_t wordsAtOnce(uint32_t samples) { return samples >= 128 ? 4 : samples >= 
 
 } // namespace
 
-gpu::Pipeline& OcclusionSystem::tracePipeline(const OcclusionKnobs& knobs)
+gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, const OcclusionKnobs& knobs)
 {
-    return trace_[static_cast<size_t>(knobs.culling)][wordsAtOnce(knobs.samples) / 2];
+    return trace_[static_cast<size_t>(backend == RayBackend::ComputeBvh)][static_cast<size_t>(knobs.culling)][wordsAtOnce(knobs.samples) / 2];
 }
 
-void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
+void OcclusionSystem::prepare(const OcclusionKnobs& knobs, RayBackend backend)
 {
-    gpu::Pipeline& trace = tracePipeline(knobs);
+    gpu::Pipeline& trace = tracePipeline(backend, knobs);
     if (!trace) {
-        const std::array<gpu::ShaderDefine, 2> defines{
-            {{"CULLING", static_cast<int>(knobs.culling)}, {"WORDS", static_cast<int>(wordsAtOnce(knobs.samples))}}};
-        trace = computePipeline(*device_, "occlusion_trace.comp", defines);
+        const std::array<gpu::ShaderDefine, 3> defines{{{"CULLING", static_cast<int>(knobs.culling)},
+                                                        {"WORDS", static_cast<int>(wordsAtOnce(knobs.samples))},
+                                                        {"COMPUTE_BVH"}}};
+        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(backend == RayBackend::ComputeBvh ? 3 : 2));
     }
     if (knobs.filter > 0 && !filter_)
         filter_ = computePipeline(*device_, "occlusion_filter.comp");
-    if (sampleCount_ == knobs.samples && (masks_ || knobs.culling != Culling::Bones))
+    if (sampleCount_ == knobs.samples)
         return;
     const std::vector<vec3> samples = hemisphereSamples(knobs.samples);
     samples_ = gpu::uploadedBuffer(*device_, "hemisphere samples", std::span<const vec3>(samples));
-    const std::vector<uint32_t> masks = knobs.culling == Culling::Bones ? maskTable(samples) : std::vector<uint32_t>{};
-    masks_ = masks.empty() ? gpu::Buffer() : gpu::uploadedBuffer(*device_, "mask table", std::span<const uint32_t>(masks));
     sampleCount_ = knobs.samples;
 }
 
@@ -49,18 +48,17 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     pass.read(g.depth, Use::Sampled);
     pass.read(g.normals, Use::Sampled);
     pass.read(g.unshadowed, Use::Sampled);
-    pass.read(posed.scene, Use::AccelRead);
+    pass.read(posed.scene, posed.sceneUse);
     pass.read(posed.bounds, Use::StorageRead);
     counters = pass.write(counters, Use::StorageWrite);
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
-    const gpu::Pipeline& pipeline = tracePipeline(knobs);
+    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs);
     pass.record([this, &view, &scene, &pipeline, frame, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
-                          shader::OcclusionTrace{.scene = scene.scene().address(),
+                          shader::OcclusionTrace{.scene = scene.tracedAddress(),
                                                  .samples = samples_.address(),
-                                                 .masks = masks_.address(),
                                                  .counters = recorder.address(counted),
                                                  .blockers = scene.blockers().address(),
                                                  .capsules = scene.capsules().address(),
@@ -107,14 +105,13 @@ Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view,
                                 const Posed& posed, graph::BufferRef& counters)
 {
     if (!posed.scene) {
-        const std::string_view reason = view.characters.empty() ? "no DynamicSkinned in the scene" : "the device has no ray query";
         for (const std::string_view pass : {"occlusion trace", "occlusion filter"})
-            graph.skip(pass, reason);
+            graph.skip(pass, "no DynamicSkinned in the scene");
         return {};
     }
-    if (view.knobs.occlusion.backend == RayBackend::ComputeBvh)
-        graph.skip("occlusion trace, compute-bvh", "not there yet: ray queries trace instead");
-    prepare(view.knobs.occlusion);
+    if (view.knobs.occlusion.backend == RayBackend::RayQuery && scene.backend() != RayBackend::RayQuery)
+        graph.skip("occlusion trace, ray-query", "the device has no ray queries: compute-bvh traces instead");
+    prepare(view.knobs.occlusion, scene.backend());
     const graph::ImageRef traced = declareTrace(graph, view, frame, scene, g, posed, counters);
     return {declareFilter(graph, view, frame, g, traced), static_cast<uint32_t>(view.knobs.occlusion.scale)};
 }

@@ -24,18 +24,18 @@ public:
                    const Posed& posed, graph::BufferRef& counters);
 
 private:
-    gpu::Pipeline& tracePipeline(const OcclusionKnobs& knobs);
-    void prepare(const OcclusionKnobs& knobs);
+    [[nodiscard]] gpu::Pipeline& tracePipeline(RayBackend backend, const OcclusionKnobs& knobs);
+    void prepare(const OcclusionKnobs& knobs, RayBackend backend);
     graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
                                  const Posed& posed, graph::BufferRef& counters);
     graph::ImageRef declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef traced);
 
     gpu::Device* device_;
-    std::array<std::array<gpu::Pipeline, 3>, 4> trace_; // by Culling and words at once, each made when first asked for
+    std::array<std::array<std::array<gpu::Pipeline, 3>, 4>, 2> trace_; // by backend, Culling and words at once, made when first asked for
     gpu::Pipeline filter_;
-    gpu::Buffer samples_, masks_;
-    uint32_t sampleCount_ = 0; // of both
+    gpu::Buffer samples_;
+    uint32_t sampleCount_ = 0;
 };
 
 } // namespace antumbra::render

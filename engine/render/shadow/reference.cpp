@@ -40,10 +40,10 @@ uint32_t wantedSamples(const Knobs& knobs)
 
 } // namespace
 
-uint64_t ReferenceSystem::fingerprint(const FrameView& view, uvec2 extent)
+uint64_t ReferenceSystem::fingerprint(const FrameView& view, RayBackend backend, uvec2 extent)
 {
     Fingerprint print;
-    print.add(extent).add(view.camera.eye).add(view.camera.rotation).add(view.camera.verticalFovRadians);
+    print.add(backend).add(extent).add(view.camera.eye).add(view.camera.rotation).add(view.camera.verticalFovRadians);
     print.add(view.environment.image).add(view.environment.rotationRadians).add(view.environment.intensity);
     for (const StaticDraw& draw : view.statics)
         print.add(draw.model).add(draw.world);
@@ -57,19 +57,22 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
 {
     const uint32_t wanted = wantedSamples(view.knobs);
     if (wanted == 0 || !posed.scene) {
-        graph.skip("reference trace", wanted == 0 ? "reference.samples is 0" : "nothing moves, or the device has no ray query");
-        graph.skip("reference accumulate", wanted == 0 ? "reference.samples is 0" : "nothing moves, or the device has no ray query");
+        graph.skip("reference trace", wanted == 0 ? "reference.samples is 0" : "no DynamicSkinned in the scene");
+        graph.skip("reference accumulate", wanted == 0 ? "reference.samples is 0" : "no DynamicSkinned in the scene");
         frames_ = 0;
         return {};
     }
-    if (!trace_) {
-        const std::array<gpu::ShaderDefine, 3> defines{{{"CULLING", 0}, {"WORDS", 1}, {"REFERENCE", 1}}};
-        trace_ = computePipeline(*device_, "occlusion_trace.comp", defines);
-        accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
+    const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
+    gpu::Pipeline& trace = usesBvh ? traceBvh_ : trace_;
+    if (!trace) {
+        const std::array<gpu::ShaderDefine, 4> defines{{{"CULLING", 0}, {"WORDS", 1}, {"REFERENCE"}, {"COMPUTE_BVH"}}};
+        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(usesBvh ? 4 : 3));
     }
+    if (!accumulate_)
+        accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     const uvec2 extent = graph.extent(g.depth);
     const graph::History history = graph.history("reference mean", {.format = kMeanFormat, .extent = extent}, history_);
-    const uint64_t now = fingerprint(view, extent);
+    const uint64_t now = fingerprint(view, scene.backend(), extent);
     if (now != seen_ || !history.valid)
         frames_ = 0;
     seen_ = now;
@@ -80,12 +83,12 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         graph::Pass pass = graph.add("reference trace");
         pass.read(g.depth, Use::Sampled);
         pass.read(g.normals, Use::Sampled);
-        pass.read(posed.scene, Use::AccelRead);
+        pass.read(posed.scene, posed.sceneUse);
         traced = pass.create("reference, traced", {.format = kMeanFormat, .like = g.depth}, Use::StorageWrite);
         const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
-        pass.record([this, &scene, frame, g, traced, own, summed = frames_](graph::Recorder& recorder) {
-            recorder.dispatch(trace_,
-                              shader::OcclusionTrace{.scene = scene.scene().address(),
+        pass.record([&trace, &scene, frame, g, traced, own, summed = frames_](graph::Recorder& recorder) {
+            recorder.dispatch(trace,
+                              shader::OcclusionTrace{.scene = scene.tracedAddress(),
                                                      .counters = recorder.address(own),
                                                      .frame = frame,
                                                      .depth = recorder.sampled(g.depth),

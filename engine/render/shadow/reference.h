@@ -17,10 +17,10 @@ public:
     [[nodiscard]] uint32_t samples() const { return frames_ * samplesAFrame_; }
 
 private:
-    [[nodiscard]] static uint64_t fingerprint(const FrameView& view, uvec2 extent);
+    [[nodiscard]] static uint64_t fingerprint(const FrameView& view, RayBackend backend, uvec2 extent);
 
     gpu::Device* device_;
-    gpu::Pipeline trace_, accumulate_;
+    gpu::Pipeline trace_, traceBvh_, accumulate_;
     graph::HistorySlot history_;
     uint64_t seen_ = 0;
     uint32_t frames_ = 0;
