@@ -9,7 +9,6 @@ namespace {
 
 constexpr uint32_t kBands = 3;
 
-/// Right-handed, reversed depth without a far plane: clip z = near, w = -z. Y points down in Vulkan's clip space.
 mat4 reversedPerspective(float verticalFov, float aspect, float near)
 {
     const float f = 1.0f / std::tan(0.5f * verticalFov);
@@ -24,8 +23,7 @@ mat4 reversedPerspective(float verticalFov, float aspect, float near)
 void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 extent)
 {
     const float width = static_cast<float>(extent.x), height = static_cast<float>(extent.y);
-    const mat4 viewFromWorld = glm::mat4_cast(glm::conjugate(camera.rotation)) * glm::translate(mat4{1}, -camera.eye);
-    block.clipFromWorld = reversedPerspective(camera.verticalFovRadians, width / height, camera.nearMetres) * viewFromWorld;
+    block.clipFromWorld = clipFromWorld(camera, extent);
     block.worldFromClip = glm::inverse(block.clipFromWorld);
     block.eye = camera.eye;
     block.near = camera.nearMetres;
@@ -36,6 +34,13 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
 }
 
 } // namespace
+
+mat4 clipFromWorld(const CameraView& camera, uvec2 extent)
+{
+    const mat4 viewFromWorld = glm::mat4_cast(glm::conjugate(camera.rotation)) * glm::translate(mat4{1}, -camera.eye);
+    const float aspect = static_cast<float>(extent.x) / static_cast<float>(extent.y);
+    return reversedPerspective(camera.verticalFovRadians, aspect, camera.nearMetres) * viewFromWorld;
+}
 
 FrameBlocks::FrameBlocks(gpu::Device& device, const scene::Assets& assets) : device_(&device), assets_(&assets)
 {

@@ -11,6 +11,9 @@
 
 namespace antumbra::render {
 
+/// Reversed depth without a far plane: clip z = near, w = the view depth in metres. Y points down in Vulkan's clip space.
+mat4 clipFromWorld(const CameraView& camera, uvec2 extent);
+
 class FrameBlocks
 {
 public:

@@ -1,6 +1,8 @@
 #include "render/gbuffer.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace antumbra::render {
 
@@ -23,35 +25,63 @@ gpu::Pipeline makePipeline(gpu::Device& device, std::span<const gpu::ShaderDefin
                                    .depthFormat = gpu::Format::Depth32Float});
 }
 
-shader::GBufferDraw pushFor(const DeviceModel& model, const mat4& world, const gpu::Buffer& positions, const gpu::Buffer& normals)
-{
-    const mat4 rows = glm::transpose(world);
-    return {.worldFromLocal = {rows[0], rows[1], rows[2]},
-            .positions = positions.address(),
-            .normals = normals.address(),
-            .uvs = model.uvs.address(),
-            .triangleMaterials = model.triangleMaterials.address(),
-            .materials = model.materials.address()};
-}
+/// Never NaN, which a world of huge numbers can lead to and no order knows.
+float sortable(float depthView) { return std::fmax(depthView, 0.0f); }
 
-Faces facesOf(const DeviceModel& model, const mat4& world)
+Faces facesOf(const DeviceMaterial& material, const mat4& world)
 {
     const bool isMirrored = glm::determinant(mat3(world)) < 0.0f;
-    return model.isTwoSided ? Faces::Both : isMirrored ? Faces::FrontMirrored : Faces::Front;
+    return material.isTwoSided ? Faces::Both : isMirrored ? Faces::FrontMirrored : Faces::Front;
 }
 
 } // namespace
 
 GBufferSystem::GBufferSystem(gpu::Device& device)
 {
-    constexpr gpu::ShaderDefine textured{"TEXTURED"};
+    constexpr std::array defines{gpu::ShaderDefine{"TEXTURED"}, gpu::ShaderDefine{"CUT_OUT"}};
     plain_ = makePipeline(device, {});
-    textured_ = makePipeline(device, std::span(&textured, 1));
+    textured_ = makePipeline(device, std::span(defines).first(1));
+    cutOut_ = makePipeline(device, defines);
+}
+
+const gpu::Pipeline& GBufferSystem::pipelineFor(const shader::MaterialBlock& material) const
+{
+    return material.alphaCutoff > 0.0f ? cutOut_ : material.albedoImage != shader::kNoImage ? textured_ : plain_;
+}
+
+// Nearest first, so that few pixels are shaded twice. What ends behind comes last: a floor or a wall reaches near and lies behind most of
+// what is on it.
+void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent)
+{
+    draws_.clear();
+    const mat4 clipFromWorld = render::clipFromWorld(view.camera, extent);
+    size_t most = 0;
+    uint32_t object = 0;
+    for (const StaticDraw& each : view.statics) {
+        const std::vector<Cluster>& clusters = scene.model(each.model).clusters;
+        const mat4 clipFromLocal = clipFromWorld * each.world;
+        for (uint32_t cluster = 0; cluster < clusters.size(); ++cluster)
+            if (const std::optional<float> depthView = farthestSeen(clusters[cluster].box, clipFromLocal))
+                draws_.push_back({sortable(*depthView), object, cluster});
+        most += clusters.size();
+        ++object;
+    }
+    for (const CharacterDraw& each : view.characters) {
+        const std::vector<Cluster>& clusters = scene.model(each.model).clusters;
+        const float depthView = sortable((clipFromWorld * each.world[3]).w);
+        for (uint32_t cluster = 0; cluster < clusters.size(); ++cluster)
+            draws_.push_back({depthView, object, cluster});
+        most += clusters.size();
+        ++object;
+    }
+    draws_.reserve(most);
+    std::ranges::sort(draws_);
 }
 
 GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
-                               uvec2 extent) const
+                               uvec2 extent)
 {
+    listDraws(view, scene, extent);
     graph::Pass pass = graph.add("g-buffer");
     if (posed.vertices)
         pass.read(posed.vertices, Use::VertexRead);
@@ -62,22 +92,27 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     g.unshadowed = pass.create("unshadowed", {.format = kIrradianceFormat, .extent = extent, .clear = vec4{0}}, Use::ColorAttachment);
 
     pass.record([this, &view, &scene, frame](graph::Recorder& recorder) {
-        const auto draw = [&](const DeviceModel& model, const mat4& world, shader::GBufferDraw push, uint32_t flags) {
-            push.frame = frame;
-            push.flags = flags;
-            recorder.drawIndexed(model.isTextured ? textured_ : plain_, push, model.indices, 3 * model.triangleCount,
-                                 facesOf(model, world));
+        const auto draw = [&](uint32_t cluster, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,
+                              const gpu::Buffer& normals, uint32_t flags) {
+            const Cluster& triangles = model.clusters[cluster];
+            const DeviceMaterial& material = model.materials[triangles.material];
+            const mat4 rows = glm::transpose(world);
+            recorder.drawIndexed(
+                pipelineFor(material.block),
+                shader::GBufferDraw{
+                    {rows[0], rows[1], rows[2]}, material.block, positions.address(), normals.address(), model.uvs.address(), frame, flags},
+                model.clusterIndices, triangles.indexCount, facesOf(material, world), triangles.firstIndex);
         };
-        for (const StaticDraw& each : view.statics) {
-            const DeviceModel& model = scene.model(each.model);
-            const DeviceRest& rest = scene.rest(each.model);
-            draw(model, each.world, pushFor(model, each.world, rest.positions, rest.normals), 0);
-        }
-        for (const CharacterDraw& each : view.characters) {
-            const DeviceModel& model = scene.model(each.model);
-            const DeviceCharacter& character = scene.character(each.slot);
-            draw(model, each.world, pushFor(model, each.world, character.positions, character.normals), shader::kDrawDynamic);
-        }
+        for (const Draw& each : draws_)
+            if (each.object < view.statics.size()) {
+                const StaticDraw& object = view.statics[each.object];
+                const DeviceRest& rest = scene.rest(object.model);
+                draw(each.cluster, scene.model(object.model), object.world, rest.positions, rest.normals, 0);
+            } else {
+                const CharacterDraw& object = view.characters[each.object - view.statics.size()];
+                const DeviceCharacter& character = scene.character(object.slot);
+                draw(each.cluster, scene.model(object.model), object.world, character.positions, character.normals, shader::kDrawDynamic);
+            }
     });
     return g;
 }

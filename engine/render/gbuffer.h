@@ -23,10 +23,23 @@ public:
     explicit GBufferSystem(gpu::Device& device);
 
     GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
-                    uvec2 extent) const;
+                    uvec2 extent);
 
 private:
-    gpu::Pipeline plain_, textured_;
+    struct Draw
+    {
+        float depthView; // behind which nothing of it lies, metres; a guess for what deforms
+        uint32_t object; // into FrameView::statics, and on into FrameView::characters
+        uint32_t cluster;
+
+        friend auto operator<=>(const Draw&, const Draw&) = default;
+    };
+
+    void listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent);
+    [[nodiscard]] const gpu::Pipeline& pipelineFor(const shader::MaterialBlock& material) const;
+
+    gpu::Pipeline plain_, textured_, cutOut_;
+    std::vector<Draw> draws_; // of the frame that is declared, nearest first
 };
 
 } // namespace antumbra::render

@@ -4,7 +4,9 @@
 
 #include "gpu/accel.h"
 #include "gpu/image.h"
+#include "render/clusters.h"
 #include "render/frame_view.h"
+#include "render/shader_structs.h"
 #include "scene/assets.h"
 
 #include <optional>
@@ -12,16 +14,24 @@
 
 namespace antumbra::render {
 
-/// A model's streams as skinning and drawing read them.
+struct DeviceMaterial
+{
+    shader::MaterialBlock block;
+    bool isTwoSided = false;
+};
+
+/// A model's streams as skinning, drawing and tracing read them.
 struct DeviceModel
 {
-    gpu::Buffer indices, uvs, triangleMaterials, materials;
+    gpu::Buffer indices;        // as tracing takes them
+    gpu::Buffer clusterIndices; // as the clusters count them
+    gpu::Buffer uvs;
     gpu::Buffer nodes; // BvhNode[], at rest; made for compute-bvh once something moves in the scene
+    std::vector<Cluster> clusters;
+    std::vector<DeviceMaterial> materials;
     std::vector<gpu::Image> images;
     uint32_t vertexCount = 0;
     uint32_t triangleCount = 0;
-    bool isTwoSided = false; // some material is
-    bool isTextured = false; // some material has an image or is cut out
 };
 
 /// What only posed models need.

@@ -74,9 +74,10 @@ CapsuleBound boundOfCapsule(vec3 middle, vec3 arm, float radius, float reach)
     return CapsuleBound(middle, isInside || beyond2 <= 0.0 ? -1.0e30 : least, across, isInside ? 1.0e30 : most);
 }
 
+// Asked so that what overflows is held.
 bool mayMeet(CapsuleBound bound, vec3 direction)
 {
-    return dot(direction, bound.towards) >= bound.least && abs(dot(direction, bound.across)) <= bound.most;
+    return !(dot(direction, bound.towards) < bound.least || abs(dot(direction, bound.across)) > bound.most);
 }
 
 // A ray that only rounding puts outside is held.

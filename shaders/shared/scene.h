@@ -18,15 +18,14 @@ struct MaterialBlock
 
 const uint kDrawDynamic = 1u;
 
-// One model in one place: push constants of the G-buffer, which all threads read alike.
+// Triangles of one material in one place: push constants of the G-buffer, which all threads read alike.
 struct GBufferDraw
 {
     vec4 worldFromLocal[3]; // rows
+    MaterialBlock material;
     uint64_t positions; // vec3[], local
     uint64_t normals; // vec3[]
     uint64_t uvs; // vec2[]
-    uint64_t triangleMaterials; // uint[]: into materials
-    uint64_t materials; // MaterialBlock[]
     uint frame; // slot of a FrameBlock
     uint flags;
 };

@@ -22,7 +22,7 @@ Out evaluate(In x) { return Out(arcSine(x.sine)); }
 
 struct In { vec3 p; vec3 n; vec3 a; vec3 b; float radius; vec3 direction; };
 struct ConeOut { vec3 axis; float cosine; float chord; float halfAngle; float height; uint all; uint holds; };
-struct Out { ConeOut sphere; CapsuleBound capsule; uint mayMeetCapsule; uint isBehind; uint hitsSphere; float share; };
+struct Out { ConeOut sphere; uint mayMeetCapsule; uint isBehind; uint hitsSphere; float share; };
 ConeOut described(Cone cone, vec3 direction)
 {
     return ConeOut(cone.axis, cone.cosine, cone.chord, cone.halfAngle, cone.height, uint(cone.all), uint(holds(cone, direction)));
@@ -33,7 +33,7 @@ Out evaluate(In x)
     Cone sphere = coneOfSphere(x.p, x.n, x.a, x.radius);
     vec3 arm = 0.5 * (x.b - x.a);
     CapsuleBound capsule = boundOfCapsule(0.5 * ((x.a - x.p) + (x.b - x.p)), arm, x.radius, x.radius + 1.0005 * length(arm));
-    return Out(described(sphere, x.direction), capsule, uint(mayMeet(capsule, x.direction)), uint(isBehind(x.p, x.n, x.a, x.radius)),
+    return Out(described(sphere, x.direction), uint(mayMeet(capsule, x.direction)), uint(isBehind(x.p, x.n, x.a, x.radius)),
                uint(hitsSphere(x.p, x.direction, x.a, x.radius)), greatestShare(sphere, x.n));
 }
 

@@ -47,6 +47,18 @@ void put(mat4 value)
         put(value[i]);
 }
 
+void put(MaterialBlock value)
+{
+    put(value.albedo);
+    put(value.alphaCutoff);
+    put(value.alpha);
+    put(value.roughness);
+    put(value.metallic);
+    put(value.specular);
+    put(value.albedoImage);
+    put(value.metallicRoughnessImage);
+}
+
 #if defined(FRAME_BLOCK)
 
 #define Block FrameBlock
@@ -77,11 +89,10 @@ void echo(GBufferDraw b)
 {
     for (int i = 0; i < 3; ++i)
         put(b.worldFromLocal[i]);
+    put(b.material);
     put(b.positions);
     put(b.normals);
     put(b.uvs);
-    put(b.triangleMaterials);
-    put(b.materials);
     put(b.frame);
     put(b.flags);
 }
@@ -89,17 +100,7 @@ void echo(GBufferDraw b)
 #elif defined(MATERIAL_BLOCK)
 
 #define Block MaterialBlock
-void echo(MaterialBlock b)
-{
-    put(b.albedo);
-    put(b.alphaCutoff);
-    put(b.alpha);
-    put(b.roughness);
-    put(b.metallic);
-    put(b.specular);
-    put(b.albedoImage);
-    put(b.metallicRoughnessImage);
-}
+void echo(MaterialBlock b) { put(b); }
 
 #elif defined(INFLUENCE_BLOCK)
 

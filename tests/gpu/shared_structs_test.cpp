@@ -59,7 +59,9 @@ TEST_F(SharedStructs, FrameBlock)
 TEST_F(SharedStructs, GBufferDraw)
 {
     expectSameLayout<shader::GBufferDraw>("GBUFFER_DRAW", [](const auto& b) {
-        return wordsOf(b.worldFromLocal, b.positions, b.normals, b.uvs, b.triangleMaterials, b.materials, b.frame, b.flags);
+        return wordsOf(b.worldFromLocal, b.material.albedo, b.material.alphaCutoff, b.material.alpha, b.material.roughness,
+                       b.material.metallic, b.material.specular, b.material.albedoImage, b.material.metallicRoughnessImage, b.positions,
+                       b.normals, b.uvs, b.frame, b.flags);
     });
 }
 
