@@ -32,7 +32,7 @@ Out evaluate(In x)
 {
     Cone sphere = coneOfSphere(x.p, x.n, x.a, x.radius);
     vec3 arm = 0.5 * (x.b - x.a);
-    CapsuleBound capsule = boundOfCapsule(0.5 * ((x.a - x.p) + (x.b - x.p)), arm, x.radius, x.radius + 1.0005 * length(arm));
+    CapsuleBound capsule = boundOfCapsule(0.5 * ((x.a - x.p) + (x.b - x.p)), arm, x.radius, x.radius + 1.0005 * length(arm) + 1.0e-6); // reach as bone_fit.comp gives it
     return Out(described(sphere, x.direction), uint(mayMeet(capsule, x.direction)), uint(isBehind(x.p, x.n, x.a, x.radius)),
                uint(hitsSphere(x.p, x.direction, x.a, x.radius)), greatestShare(sphere, x.n));
 }
