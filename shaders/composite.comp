@@ -126,7 +126,7 @@ void composePixel(ivec2 pixel, ivec2 corner)
     bool isSurface = depth > 0.0;
     vec3 normal = unitFromOctahedral(texelFetch(sampledImages[pc.normals], pixel, 0).zw);
     vec3 albedo = texelFetch(sampledImages[pc.albedo], pixel, 0).rgb;
-    vec3 firstTerm = texelFetch(sampledImages[pc.unshadowed], pixel, 0).rgb;
+    vec3 firstTerm = isSurface ? texelFetch(sampledImages[pc.unshadowed], pixel, 0).rgb : vec3(0.0);
     vec4 occluded = vec4(0.0);
 #ifdef OCCLUDED
     if (isSurface)
@@ -138,7 +138,7 @@ void composePixel(ivec2 pixel, ivec2 corner)
 #endif
     countBroken(firstTerm, occluded.rgb);
     vec3 irradiance = shadowedIrradiance(firstTerm, occluded.rgb);
-    vec3 color = albedo * kInversePi * irradiance;
+    vec3 color = isSurface ? albedo * kInversePi * irradiance : vec3(0.0);
 #ifdef EXPLAINS
     if (uint(pixel.x) >= pc.splitX)
         color = isSurface ? viewed(albedo, firstTerm, occluded, truth, normal) : color;

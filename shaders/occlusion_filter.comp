@@ -9,10 +9,10 @@
 // Cross-bilateral filter of the occluded irradiance alone (Xu et al. 2022, section 4): neighbours on the same surface count. The
 // outermost taps count half, so that a width of 4k + 1 sees each of the 4 x 4 rotations equally often.
 // A shadow changes over lengths such as its blocker is away: 1 well within that, a half at half of it.
-float withinPenumbra(float apart, float blockerDistance)
+float withinPenumbra(vec3 apart, float blockerDistance)
 {
-    float t = apart / (0.5 * blockerDistance);
-    return 1.0 / (1.0 + t * t * t * t);
+    float t2 = dot(apart, apart) / (0.25 * blockerDistance * blockerDistance);
+    return 1.0 / (1.0 + t2 * t2);
 }
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -37,7 +37,7 @@ void main()
             ivec2 there = clamp(pixel + ivec2(dx, dy), ivec2(0), extent - 1);
             TracedPixel neighbour = unpackTraced(texelFetch(sampledWordImages[pc.traced], there, 0));
             vec2 offset = vec2(there - pixel) * pc.pixelScale;
-            float apart = distance(fromEye(frameBlock, full + offset, neighbour.depthView), position);
+            vec3 apart = fromEye(frameBlock, full + offset, neighbour.depthView) - position;
             float weight = likeness(plane, offset, neighbour) * withinPenumbra(apart, min(centre.blockerDistance, neighbour.blockerDistance));
             weight *= (abs(dx) == pc.radius ? 0.5 : 1.0) * (abs(dy) == pc.radius ? 0.5 : 1.0);
             sum += weight * neighbour.occluded;

@@ -330,7 +330,8 @@ void main()
         imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
-    vec3 share = shareOf(hiddenIrradiance(), texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb);
+    vec3 unshadowed = texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb;
+    vec3 share = isSurface ? shareOf(hiddenIrradiance(), unshadowed) : vec3(0.0);
     TracedPixel traced = TracedPixel(share, coneCount, blockerDistance, depthView, octahedralFromUnit(r.normal));
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));

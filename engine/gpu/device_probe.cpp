@@ -70,8 +70,7 @@ struct Wish
 /// What the engine cannot do without.
 std::vector<Wish> requiredFeatures(Features& f)
 {
-    return {{"geometryShader", &f.core.features.geometryShader}, // for gl_PrimitiveID in fragments
-            {"shaderInt64", &f.core.features.shaderInt64},
+    return {{"shaderInt64", &f.core.features.shaderInt64},
             {"shaderStorageImageReadWithoutFormat", &f.core.features.shaderStorageImageReadWithoutFormat},
             {"shaderStorageImageWriteWithoutFormat", &f.core.features.shaderStorageImageWriteWithoutFormat},
             {"bufferDeviceAddress", &f.v12.bufferDeviceAddress},

@@ -79,7 +79,7 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
 }
 
 GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
-                               uvec2 extent)
+                               uvec2 extent, bool isKept)
 {
     listDraws(view, scene, extent);
     graph::Pass pass = graph.add("g-buffer");
@@ -87,9 +87,14 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
         pass.read(posed.vertices, Use::VertexRead);
     GBuffer g;
     g.depth = pass.create("depth", {.format = gpu::Format::Depth32Float, .extent = extent, .clear = vec4{0}}, Use::DepthAttachment);
-    g.normals = pass.create("normals", {.format = kNormalFormat, .extent = extent, .clear = vec4{0}}, Use::ColorAttachment);
-    g.albedo = pass.create("albedo", {.format = kAlbedoFormat, .extent = extent, .clear = vec4{0}}, Use::ColorAttachment);
-    g.unshadowed = pass.create("unshadowed", {.format = kIrradianceFormat, .extent = extent, .clear = vec4{0}}, Use::ColorAttachment);
+    // Passes ask the depth first, so that only who looks at the images themselves needs something where nothing is.
+    const std::optional<vec4> blank = isKept ? std::optional(vec4{0}) : std::nullopt;
+    const auto create = [&](std::string_view name, gpu::Format format) {
+        return pass.create(name, {.format = format, .extent = extent, .clear = blank}, Use::ColorAttachment);
+    };
+    g.normals = create("normals", kNormalFormat);
+    g.albedo = create("albedo", kAlbedoFormat);
+    g.unshadowed = create("unshadowed", kIrradianceFormat);
 
     pass.record([this, &view, &scene, frame](graph::Recorder& recorder) {
         const auto draw = [&](uint32_t cluster, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,

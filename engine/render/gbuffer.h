@@ -22,8 +22,9 @@ class GBufferSystem
 public:
     explicit GBufferSystem(gpu::Device& device);
 
+    /// Where nothing is, images other than the depth hold zero if they are kept, else anything.
     GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
-                    uvec2 extent);
+                    uvec2 extent, bool isKept);
 
 private:
     struct Draw

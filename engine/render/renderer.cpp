@@ -152,7 +152,7 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     graph::BufferRef counters = counters_.declareClear(graph_);
 
     const Posed posed = posing_.declare(graph_, view, scene_);
-    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, posed, extent());
+    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, posed, extent(), captures_ != 0);
     const Traced traced = occlusion_.declare(graph_, view, frame, scene_, g, posed, counters);
     const ImageRef reference = reference_.declare(graph_, view, frame, scene_, g, posed);
     const ImageRef blank =
