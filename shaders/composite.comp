@@ -120,34 +120,43 @@ void keep(uint slot, ivec2 pixel, vec4 value)
 
 #endif
 
-void composePixel(ivec2 pixel, ivec2 corner)
+void composeSurface(ivec2 pixel, ivec2 corner, float depthView)
 {
-    float depth = texelFetch(sampledImages[pc.depth], pixel, 0).x;
-    bool isSurface = depth > 0.0;
     vec3 normal = unitFromOctahedral(texelFetch(sampledImages[pc.normals], pixel, 0).zw);
     vec3 albedo = texelFetch(sampledImages[pc.albedo], pixel, 0).rgb;
-    vec3 firstTerm = isSurface ? texelFetch(sampledImages[pc.unshadowed], pixel, 0).rgb : vec3(0.0);
+    vec3 firstTerm = texelFetch(sampledImages[pc.unshadowed], pixel, 0).rgb;
     vec4 occluded = vec4(0.0);
 #ifdef OCCLUDED
-    if (isSurface)
-        occluded = vec4(firstTerm, 1.0) * upsampled(pixel, corner, frameBlock.near / depth, normal);
+    occluded = vec4(firstTerm, 1.0) * upsampled(pixel, corner, depthView, normal);
 #endif
 #ifdef EXPLAINS
-    vec3 truth = pc.reference != kAbsent && isSurface ? texelFetch(sampledImages[pc.reference], pixel, 0).rgb : occluded.rgb;
+    vec3 truth = pc.reference != kAbsent ? texelFetch(sampledImages[pc.reference], pixel, 0).rgb : occluded.rgb;
     occluded.rgb = pc.isReferenceShown != 0u ? truth : occluded.rgb;
 #endif
     countBroken(firstTerm, occluded.rgb);
     vec3 irradiance = shadowedIrradiance(firstTerm, occluded.rgb);
-    vec3 color = isSurface ? albedo * kInversePi * irradiance : vec3(0.0);
+    vec3 color = albedo * kInversePi * irradiance;
 #ifdef EXPLAINS
-    if (uint(pixel.x) >= pc.splitX)
-        color = isSurface ? viewed(albedo, firstTerm, occluded, truth, normal) : color;
+    color = uint(pixel.x) >= pc.splitX ? viewed(albedo, firstTerm, occluded, truth, normal) : color;
     keep(pc.color, pixel, vec4(color, 1.0));
     keep(pc.irradiance, pixel, vec4(irradiance, 1.0));
     keep(pc.occluded, pixel, occluded);
 #endif
-    if (isSurface)
-        imageStore(storageImages[pc.picture], pixel, vec4(srgbEncoded(toneMapped(color * pc.exposure)), 1.0));
+    imageStore(storageImages[pc.picture], pixel, vec4(srgbEncoded(toneMapped(color * pc.exposure)), 1.0));
+}
+
+void composePixel(ivec2 pixel, ivec2 corner)
+{
+    float depth = texelFetch(sampledImages[pc.depth], pixel, 0).x;
+    if (depth > 0.0)
+        composeSurface(pixel, corner, frameBlock.near / depth);
+#ifdef EXPLAINS
+    else {
+        keep(pc.color, pixel, vec4(0.0));
+        keep(pc.irradiance, pixel, vec4(0.0));
+        keep(pc.occluded, pixel, vec4(0.0));
+    }
+#endif
 }
 
 void main()
