@@ -1,6 +1,6 @@
 // Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
-// Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; WORDS times 32 samples are looked at in one go; REFERENCE
-// jitters the points anew each frame; COMPUTE_BVH traces without ray queries.
+// Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; REFERENCE jitters the points anew each frame; COMPUTE_BVH
+// traces without ray queries.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -27,8 +27,8 @@ layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { OcclusionTrace pc; };
 
 // One thread a pixel, for finding the rays that survive; then the group's rays are dealt out evenly, so that no lane idles.
-layout(local_size_x = 16, local_size_y = 8) in;
-const uint kGroupSize = 128u;
+layout(local_size_x = kTraceGroupWidth, local_size_y = kTraceGroupHeight) in;
+const uint kGroupSize = kTraceGroupWidth * kTraceGroupHeight;
 
 struct Receiver
 {
@@ -73,7 +73,9 @@ void traceAll(Receiver r)
         float hit = dynamicHitFirstOfAll(pc.scene, r.origin, direction);
         if (hit >= 0.0) {
             addHidden(direction);
-            blockerDistance = min(blockerDistance, hit);
+            // As culled rays find it, so that the filter does the same whatever was culled.
+            if (pc.isFiltered != 0u)
+                blockerDistance = min(blockerDistance, dynamicHitFirst(pc.scene, r.origin, direction, kRayFar));
         }
     }
     raysTraced = pc.sampleCount;
@@ -81,83 +83,60 @@ void traceAll(Receiver r)
 
 #else
 
-// WORDS times 32 samples from `base` on that may hit something that moves, and how far their rays must go.
-struct Survivors
-{
-    uint samples[WORDS];
-    float far;
-};
-
-// The batch of samples that all threads look at now: a test against a cone is some multiplications then, and no look-up.
-const uint kBatch = 32u * WORDS;
+// Samples are looked at by the 32, a bit each: a test against a cone is some multiplications then, unrolled, and no look-up.
+const uint kBatch = 32u;
 vec3 batch[kBatch];
 
 void loadBatch(uint base)
 {
-    for (uint w = 0u; w < WORDS; ++w)
-        for (uint i = 0u; i < 32u; ++i)
-            batch[32u * w + i] = localSample(min(base + 32u * w + i, pc.sampleCount - 1u));
-}
-
-uint[WORDS] noSamples()
-{
-    uint samples[WORDS];
-    for (uint w = 0u; w < WORDS; ++w)
-        samples[w] = 0u;
-    return samples;
-}
-
-uint countOf(uint samples[WORDS])
-{
-    uint count = 0u;
-    for (uint w = 0u; w < WORDS; ++w)
-        count += uint(bitCount(samples[w]));
-    return count;
+    for (uint i = 0u; i < kBatch; ++i)
+        batch[i] = localSample(base + i);
 }
 
 // `axis` in the sample frame.
-uint[WORDS] samplesInCone(Cone cone, vec3 axis)
+uint samplesInCone(Cone cone, vec3 axis)
 {
-    uint inside[WORDS] = noSamples();
     float cosine = cone.all ? -2.0 : cone.cosine;
-    for (uint w = 0u; w < WORDS; ++w)
-        for (uint i = 0u; i < 32u; ++i)
-            inside[w] |= dot(batch[32u * w + i], axis) >= cosine ? 1u << i : 0u;
+    uint inside = 0u;
+    for (uint i = 0u; i < kBatch; ++i)
+        inside |= dot(batch[i], axis) >= cosine ? 1u << i : 0u;
     return inside;
 }
 
-uint[WORDS] samplesMeeting(CapsuleBound bound)
+uint samplesMeeting(CapsuleBound bound)
 {
-    uint meeting[WORDS] = noSamples();
-    for (uint w = 0u; w < WORDS; ++w)
-        for (uint i = 0u; i < 32u; ++i)
-            meeting[w] |= mayMeet(bound, batch[32u * w + i]) ? 1u << i : 0u;
+    uint meeting = 0u;
+    for (uint i = 0u; i < kBatch; ++i)
+        meeting |= mayMeet(bound, batch[i]) ? 1u << i : 0u;
     return meeting;
 }
 
 // The samples of a character's cone that may meet one of its capsules too.
-uint[WORDS] samplesMeetingBones(Receiver r, BlockerBlock blocker, uint among[WORDS])
+uint samplesMeetingBones(Receiver r, BlockerBlock blocker, uint among)
 {
-    // A loop that goes round for nobody is what spares CPU devices the work; so few samples are sooner traced than asked about.
-    bool isWorthIt = countOf(among) > WORDS;
+    // A loop that goes round for nobody is what spares CPU devices the work; a single sample is sooner traced than asked about.
+    bool isWorthIt = bitCount(among) > 1;
     uint capsuleCount = isWorthIt ? blocker.capsuleCount : 0u;
-    uint meeting[WORDS] = noSamples();
+    uint meeting = 0u;
     for (uint c = 0u; c < capsuleCount; ++c) {
         CapsuleBlock capsule = Capsules(pc.capsules).block[blocker.firstCapsule + c];
-        uint more[WORDS] = samplesMeeting(
+        meeting |= samplesMeeting(
             boundOfCapsule((capsule.middle - r.origin) * r.frame, capsule.arm * r.frame, capsule.radius, capsule.reach));
-        for (uint w = 0u; w < WORDS; ++w)
-            meeting[w] |= more[w];
     }
     coneCount += capsuleCount;
-    for (uint w = 0u; w < WORDS; ++w)
-        meeting[w] = isWorthIt ? meeting[w] & among[w] : among[w];
-    return meeting;
+    return isWorthIt ? meeting & among : among;
 }
 
-Survivors survivorsAmong(Receiver r, uint base)
+// The samples that may hit something that moves, and how far their rays must go.
+struct Survivors
 {
-    Survivors survivors = Survivors(noSamples(), 0.0);
+    uint samples;
+    float far;
+};
+
+Survivors survivorsOfBatch(Receiver r)
+{
+    Survivors survivors = Survivors(0u, 0.0);
     for (uint k = 0u; k < pc.blockerCount; ++k) {
         BlockerBlock blocker = Blockers(pc.blockers).block[k];
         Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
@@ -165,14 +144,11 @@ Survivors survivorsAmong(Receiver r, uint base)
 #if CULLING == 3
         matters = matters && !isNegligible(cone, r.normal);
 #endif
-        uint among[WORDS] = samplesInCone(cone, cone.axis * r.frame);
-        for (uint w = 0u; w < WORDS; ++w)
-            among[w] &= matters && base + 32u * w < pc.sampleCount ? 0xffffffffu : 0u;
+        uint among = matters ? samplesInCone(cone, cone.axis * r.frame) : 0u;
 #if CULLING == 3
         among = samplesMeetingBones(r, blocker, among);
 #endif
-        for (uint w = 0u; w < WORDS; ++w)
-            survivors.samples[w] |= among[w];
+        survivors.samples |= among;
         coneCount += matters ? 1u : 0u;
         // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
         survivors.far = max(survivors.far, !matters ? 0.0 : CULLING == 1 ? kRayFar : cone.height);
@@ -181,54 +157,40 @@ Survivors survivorsAmong(Receiver r, uint base)
 }
 
 // The group's rays, each the number of its pixel and of its sample, and what every pixel's rays start from.
-const uint kListSize = 4096u;
 shared uint rayCount;
-shared uint rays[kListSize];
-shared uint hits[WORDS * kGroupSize];
+shared uint rays[kGroupSize * kBatch];
+shared uint hits[kGroupSize];
 shared vec3 origins[kGroupSize];
 shared vec3 tangents[kGroupSize];
 shared vec3 normals[kGroupSize];
 shared float fars[kGroupSize];
 shared uint nearestHits[kGroupSize]; // bits of distances, which order as they do
 
-uint groupSum(uint value)
-{
-    barrier();
-    rayCount = 0u;
-    barrier();
-    atomicAdd(rayCount, value);
-    barrier();
-    return rayCount;
-}
-
-// Traces the group's surviving rays, at most kListSize, and adds what this pixel's rays found.
-void traceTogether(Receiver r, uint survivors[WORDS], uint base)
+// Traces the group's surviving rays and adds what this pixel's found.
+void traceTogether(Receiver r, Survivors survivors, uint base)
 {
     uint me = gl_LocalInvocationIndex;
-    uint mine = countOf(survivors);
     barrier();
     rayCount = 0u;
-    for (uint w = 0u; w < WORDS; ++w)
-        hits[WORDS * me + w] = 0u;
+    hits[me] = 0u;
+    fars[me] = survivors.far;
     barrier();
-    uint next = atomicAdd(rayCount, mine);
-    for (uint w = 0u; w < WORDS; ++w)
-        for (uint word = survivors[w]; word != 0u; word &= word - 1u)
-            rays[next++] = me << 7u | w << 5u | uint(findLSB(word));
+    uint next = atomicAdd(rayCount, uint(bitCount(survivors.samples)));
+    for (uint word = survivors.samples; word != 0u; word &= word - 1u)
+        rays[next++] = me * kBatch + uint(findLSB(word));
     barrier();
     for (uint i = me; i < rayCount; i += kGroupSize) {
-        uint pixel = rays[i] >> 7u, bit = rays[i] & 127u;
+        uint pixel = rays[i] / kBatch, bit = rays[i] % kBatch;
         vec3 direction = mat3(tangents[pixel], cross(normals[pixel], tangents[pixel]), normals[pixel]) * localSample(base + bit);
         float hit = dynamicHitFirst(pc.scene, origins[pixel], direction, fars[pixel]);
         if (hit >= 0.0) {
-            atomicOr(hits[WORDS * pixel + (bit >> 5u)], 1u << (bit & 31u));
+            atomicOr(hits[pixel], 1u << bit);
             atomicMin(nearestHits[pixel], floatBitsToUint(hit));
         }
     }
     barrier();
-    for (uint w = 0u; w < WORDS; ++w)
-        for (uint word = hits[WORDS * me + w]; word != 0u; word &= word - 1u)
-            addHidden(r.frame * localSample(base + 32u * w + uint(findLSB(word))));
+    for (uint word = hits[me]; word != 0u; word &= word - 1u)
+        addHidden(r.frame * localSample(base + uint(findLSB(word))));
 }
 
 void traceSurvivors(Receiver r, bool isSurface)
@@ -240,25 +202,11 @@ void traceSurvivors(Receiver r, bool isSurface)
     nearestHits[me] = floatBitsToUint(kNoBlocker);
     for (uint base = 0u; base < pc.sampleCount; base += kBatch) {
         loadBatch(base);
-        Survivors survivors = Survivors(noSamples(), 0.0);
+        Survivors survivors = Survivors(0u, 0.0);
         if (isSurface)
-            survivors = survivorsAmong(r, base);
-        uint mine = countOf(survivors.samples);
-        raysTraced += mine;
-        fars[me] = survivors.far;
-#if WORDS == 1
-        traceTogether(r, survivors.samples, base); // a word of every pixel fits the list
-#else
-        uint all = groupSum(mine);
-        // All rays in one round where they fit; else a word of every pixel at a time.
-        uint rounds = all == 0u ? 0u : all <= kListSize ? 1u : WORDS;
-        for (uint round = 0u; round < rounds; ++round) {
-            uint turn[WORDS];
-            for (uint w = 0u; w < WORDS; ++w)
-                turn[w] = rounds == 1u || w == round ? survivors.samples[w] : 0u;
-            traceTogether(r, turn, base);
-        }
-#endif
+            survivors = survivorsOfBatch(r);
+        raysTraced += uint(bitCount(survivors.samples));
+        traceTogether(r, survivors, base);
     }
     blockerDistance = uintBitsToFloat(nearestHits[me]);
 }

@@ -19,20 +19,22 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
     return rayQueryGetIntersectionTEXT(query, true);
 }
 
-// How far off the dynamic surface is that the ray hits before any static one; negative where there is none. One loop with one query in it:
-// CPU devices run the code of every branch, so the query must stand in the program once.
+// How far off a dynamic surface is that the ray hits, if the first it hits is one; negative if not. Any dynamic hit will do where nothing
+// static lies before it; only else must the closest one be known. One loop with one query in it: CPU devices run the code of every branch,
+// so the query must stand in the program once.
 float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
 {
+    const uint kAnyDynamic = 0u, kStaticBefore = 1u, kClosestDynamic = 2u, kStaticBeforeClosest = 3u, kDone = 4u;
+    uint asked = kAnyDynamic;
     float hit = -1.0;
-    bool isAskingForStatic = false;
-    for (bool goesOn = true; goesOn;) {
-        uint mask = isAskingForStatic ? kMaskStatic : kMaskDynamic;
-        uint flags = isAskingForStatic ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
-        float at = closestHit(scene, mask, flags, origin, direction, far);
-        hit = !isAskingForStatic ? at : at < 0.0 ? hit : -1.0;
-        goesOn = !isAskingForStatic && at >= 0.0;
-        far = goesOn ? at : far;
-        isAskingForStatic = true;
+    while (asked != kDone) {
+        bool isDynamic = asked == kAnyDynamic || asked == kClosestDynamic;
+        uint flags = asked == kClosestDynamic ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT;
+        float at = closestHit(scene, isDynamic ? kMaskDynamic : kMaskStatic, flags, origin, direction, far);
+        hit = isDynamic ? -1.0 : at < 0.0 ? far : -1.0;
+        far = isDynamic && at >= 0.0 ? at : far;
+        bool goesOn = asked == kAnyDynamic ? at >= 0.0 : asked == kStaticBefore ? at >= 0.0 : asked == kClosestDynamic;
+        asked = goesOn ? asked + 1u : kDone;
     }
     return hit;
 }

@@ -10,6 +10,10 @@ const uint kCullBones = 3u;
 const uint kMaskStatic = 1u;
 const uint kMaskDynamic = 2u;
 
+// Pixels that trace their rays together.
+const uint kTraceGroupWidth = 16u;
+const uint kTraceGroupHeight = 8u;
+
 // One character, in the world.
 struct BlockerBlock
 {
@@ -50,6 +54,7 @@ struct OcclusionTrace
     uint normals;
     uint unshadowed;
     uint occluded; // written: a traced pixel, or by the reference W/m^2
+    uint isFiltered; // distances to what hides light are asked for
     uint sampleCount;
     uint blockerCount;
     float tolerance; // share of the unshadowed irradiance a cone may at most hide to be left out

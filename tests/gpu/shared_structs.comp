@@ -195,6 +195,7 @@ void echo(OcclusionTrace b)
     put(b.normals);
     put(b.unshadowed);
     put(b.occluded);
+    put(b.isFiltered);
     put(b.sampleCount);
     put(b.blockerCount);
     put(b.tolerance);

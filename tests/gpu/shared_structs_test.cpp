@@ -116,7 +116,7 @@ TEST_F(SharedStructs, OcclusionTrace)
 {
     expectSameLayout<shader::OcclusionTrace>("OCCLUSION_TRACE", [](const auto& b) {
         return wordsOf(b.scene, b.samples, b.counters, b.blockers, b.capsules, b.frame, b.depth, b.normals, b.unshadowed, b.occluded,
-                       b.sampleCount, b.blockerCount, b.tolerance, b.pixelScale, b.frameIndex);
+                       b.isFiltered, b.sampleCount, b.blockerCount, b.tolerance, b.pixelScale, b.frameIndex);
     });
 }
 

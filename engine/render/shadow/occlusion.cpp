@@ -8,27 +8,21 @@ namespace {
 
 using graph::Use;
 
-constexpr uvec2 kTraceGroup{16, 8};                            // pixels, as in occlusion_trace.comp
 constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/traced.glsl
-
-/// Samples that a thread looks at in one go, in words of 32: as many as there are, and at most four.
-uint32_t wordsAtOnce(uint32_t samples) { return samples >= 128 ? 4 : samples >= 64 ? 2 : 1; }
 
 } // namespace
 
-gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, const OcclusionKnobs& knobs)
+gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, Culling culling)
 {
-    return trace_[static_cast<size_t>(backend == RayBackend::ComputeBvh)][static_cast<size_t>(knobs.culling)][wordsAtOnce(knobs.samples) / 2];
+    return trace_[backend == RayBackend::ComputeBvh ? 1 : 0][static_cast<size_t>(culling)];
 }
 
 void OcclusionSystem::prepare(const OcclusionKnobs& knobs, RayBackend backend)
 {
-    gpu::Pipeline& trace = tracePipeline(backend, knobs);
+    gpu::Pipeline& trace = tracePipeline(backend, knobs.culling);
     if (!trace) {
-        const std::array<gpu::ShaderDefine, 3> defines{{{"CULLING", static_cast<int>(knobs.culling)},
-                                                        {"WORDS", static_cast<int>(wordsAtOnce(knobs.samples))},
-                                                        {"COMPUTE_BVH"}}};
-        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(backend == RayBackend::ComputeBvh ? 3 : 2));
+        const std::array<gpu::ShaderDefine, 2> defines{{{"CULLING", static_cast<int>(knobs.culling)}, {"COMPUTE_BVH"}}};
+        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(backend == RayBackend::ComputeBvh ? 2 : 1));
     }
     if (knobs.filter > 0 && !filter_)
         filter_ = computePipeline(*device_, "occlusion_filter.comp");
@@ -54,7 +48,7 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
-    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs);
+    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling);
     pass.record([this, &view, &scene, &pipeline, frame, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::OcclusionTrace{.scene = scene.tracedAddress(),
@@ -67,12 +61,13 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
                                                  .normals = recorder.sampled(g.normals),
                                                  .unshadowed = recorder.sampled(g.unshadowed),
                                                  .occluded = recorder.storage(traced),
+                                                 .isFiltered = view.knobs.occlusion.filter > 0 ? 1u : 0u,
                                                  .sampleCount = view.knobs.occlusion.samples,
                                                  .blockerCount = static_cast<uint32_t>(view.characters.size()),
                                                  .tolerance = view.knobs.occlusion.tolerance,
                                                  .pixelScale = pixelScale,
                                                  .frameIndex = 0},
-                          recorder.extent(traced), kTraceGroup);
+                          recorder.extent(traced), {shader::kTraceGroupWidth, shader::kTraceGroupHeight});
     });
     return traced;
 }

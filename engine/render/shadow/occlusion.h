@@ -24,7 +24,7 @@ public:
                    const Posed& posed, graph::BufferRef& counters);
 
 private:
-    [[nodiscard]] gpu::Pipeline& tracePipeline(RayBackend backend, const OcclusionKnobs& knobs);
+    [[nodiscard]] gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling);
     void prepare(const OcclusionKnobs& knobs, RayBackend backend);
     graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
                                  const Posed& posed, graph::BufferRef& counters);
@@ -32,7 +32,7 @@ private:
                                   graph::ImageRef traced);
 
     gpu::Device* device_;
-    std::array<std::array<std::array<gpu::Pipeline, 3>, 4>, 2> trace_; // by backend, Culling and words at once, made when first asked for
+    std::array<std::array<gpu::Pipeline, 4>, 2> trace_; // by backend and Culling, each made when first asked for
     gpu::Pipeline filter_;
     gpu::Buffer samples_;
     uint32_t sampleCount_ = 0;

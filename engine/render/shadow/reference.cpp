@@ -9,7 +9,6 @@ namespace {
 
 using graph::Use;
 
-constexpr uvec2 kTraceGroup{16, 8};     // pixels, as in occlusion_trace.comp
 constexpr uint32_t kSamplesAFrame = 64; // small enough to keep a live view usable
 constexpr uint32_t kLiveSamples = 4096; // where a view asks for the reference and no number is set
 constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
@@ -65,8 +64,8 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
     const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
     gpu::Pipeline& trace = usesBvh ? traceBvh_ : trace_;
     if (!trace) {
-        const std::array<gpu::ShaderDefine, 4> defines{{{"CULLING", 0}, {"WORDS", 1}, {"REFERENCE"}, {"COMPUTE_BVH"}}};
-        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(usesBvh ? 4 : 3));
+        const std::array<gpu::ShaderDefine, 3> defines{{{"CULLING", 0}, {"REFERENCE"}, {"COMPUTE_BVH"}}};
+        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(usesBvh ? 3 : 2));
     }
     if (!accumulate_)
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
@@ -97,7 +96,7 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
                                                      .sampleCount = kSamplesAFrame,
                                                      .pixelScale = 1.0f,
                                                      .frameIndex = summed},
-                              recorder.extent(traced), kTraceGroup);
+                              recorder.extent(traced), {shader::kTraceGroupWidth, shader::kTraceGroupHeight});
         });
     } else {
         graph.skip("reference trace", "reference.samples are reached");
