@@ -172,7 +172,7 @@ void strike(Each<Health, const Damage> struck)
 void choose(Each<Sprite, const Health> shown)
 {
     for (auto [sprite, health] : shown)
-        sprite.glyph = !health.isAlive ? '|' : health.points < health.greatest / 2 ? '?' : '_';
+        sprite.glyph = !health.isAlive ? U'|' : health.points < health.greatest / 2 ? U'?' : U'_';
 }
 
 struct Screen

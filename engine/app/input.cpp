@@ -12,15 +12,27 @@ constexpr float kNotchesPerSecond = 8;
 constexpr float kDeadZone = 0.15f; // of a stick that nobody touches
 
 using Axes = std::array<float, kAxisCount>;
+using Sticks = std::array<float, kPadAxisCount>;
 
 float& at(Axes& axes, Axis axis) { return axes[static_cast<size_t>(axis)]; }
 
-float beyondDeadZone(float value) { return std::copysign(std::max(0.0f, std::abs(value) - kDeadZone) / (1 - kDeadZone), value); }
+// Of both axes of a stick together: taken one by one, they would pull a slanted stick towards the nearer axis.
+vec2 beyondDeadZone(vec2 stick)
+{
+    const float length = glm::length(stick);
+    return length <= kDeadZone ? vec2(0) : stick * (std::min(1.0f, (length - kDeadZone) / (1 - kDeadZone)) / length);
+}
 
-float strengthOf(const Control& control, const HandState& hands)
+Sticks beyondDeadZones(const Sticks& sticks)
+{
+    const vec2 left = beyondDeadZone({sticks[0], sticks[1]}), right = beyondDeadZone({sticks[2], sticks[3]});
+    return {left.x, left.y, right.x, right.y};
+}
+
+float strengthOf(const Control& control, const HandState& hands, const Sticks& sticks)
 {
     if (control.stick != PadAxis::None)
-        return beyondDeadZone(hands.sticks[static_cast<size_t>(control.stick)]);
+        return sticks[static_cast<size_t>(control.stick)];
     const bool isKeyHeld = control.key != Key::None && hands.keysHeld[static_cast<size_t>(control.key)];
     const bool isButtonHeld = control.button != PadButton::None && hands.buttonsHeld[static_cast<size_t>(control.button)];
     return isKeyHeld || isButtonHeld ? 1.0f : 0.0f;
@@ -34,10 +46,11 @@ bool isPressed(const Control& control, const HandState& hands)
 
 Axes axesOf(const HandState& hands)
 {
+    const Sticks sticks = beyondDeadZones(hands.sticks);
     Axes axes{};
     for (const Control& control : controls())
         if (control.isHeld)
-            at(axes, control.axis) += control.amount * strengthOf(control, hands);
+            at(axes, control.axis) += control.amount * strengthOf(control, hands, sticks);
     for (float& axis : axes)
         axis = glm::clamp(axis, -1.0f, 1.0f);
     return axes;

@@ -28,16 +28,18 @@ HandState handsForGame(const Window& window, bool isPointerTaken)
     return hands;
 }
 
-/// Draws into the window. Returns false while there is nothing to draw into.
-bool show(Playback& playback, Window& window, gpu::Swapchain& swapchain, float seconds)
+/// Draws into the window. Returns for how many seconds the display made it wait; nothing while there is nothing to draw into.
+std::optional<double> show(Playback& playback, Window& window, gpu::Swapchain& swapchain, float seconds)
 {
+    const Clock::time_point start = Clock::now();
     const std::optional<gpu::WindowImage> target = swapchain.acquire();
     if (!target)
-        return false;
+        return std::nullopt;
+    const double waited = secondsBetween(start, Clock::now());
     playback.resize(target->image->info().extent);
     playback.draw(seconds, &window.pointer(), &*target);
     swapchain.present();
-    return true;
+    return waited;
 }
 
 } // namespace
@@ -74,8 +76,8 @@ uint64_t playInWindow(Playback& playback, Window& window, gpu::Swapchain& swapch
         else
             for (uint32_t due = steps.advance(elapsed); due > 0; --due)
                 playback.perform({.input = input.nextStep()});
-        if (show(playback, window, swapchain, static_cast<float>(elapsed))) {
-            playback.measure(1000 * secondsBetween(now, Clock::now()));
+        if (const std::optional<double> waited = show(playback, window, swapchain, static_cast<float>(elapsed))) {
+            playback.measure(1000 * secondsBetween(now, Clock::now()), 1000 * *waited);
             ++pictures;
         } else {
             std::this_thread::sleep_for(kMinimisedWait);

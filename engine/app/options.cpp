@@ -138,7 +138,8 @@ void addPlay(CLI::App& command, PlayOptions& options)
     add(command, "--script", "FILE", options.script, asText, "replay the input recorded in FILE");
     add(command, "--record", "FILE", options.record, asText, "record the input to FILE");
     add(command, "--screenshot", "FILE", options.screenshot, asText, "write the last frame to FILE");
-    add(command, "--target-ms", "T", options.targetMilliseconds, parseTime, "lower the quality to hold T milliseconds a frame");
+    add(command, "--target-ms", "T", options.targetMilliseconds, parseTime,
+        "as much quality of the occlusion pass as T milliseconds a frame allow");
     addSettings(command, options.settings);
 }
 

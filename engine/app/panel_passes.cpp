@@ -35,6 +35,9 @@ void buildHeadline(const PanelInput& input)
     const std::optional<double> frame = input.profiler.frameMilliseconds().median();
     buildRow("frame", frame ? Line("{:.2f} ms  {:.0f} fps", *frame, 1000 / *frame) : Line("-"), render::kOverlayText);
     const std::optional<double> gpu = input.profiler.gpuMilliseconds().median();
+    if (const QualityControl* quality = input.quality)
+        buildRow("target", Line("{:.4g} ms  quality -{} of {}", quality->targetMilliseconds(), quality->level(), quality->lowestLevel()),
+                 quality->isTargetHeld() ? render::kOverlayText : render::kOverlayBroken);
     buildRow("passes", gpu ? Line("{:.2f} ms", *gpu) : Line("no timestamps"), render::kOverlayText);
 }
 

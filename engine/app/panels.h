@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/profiler.h"
+#include "app/quality.h"
 
 #include <span>
 #include <string>
@@ -23,6 +24,7 @@ struct PanelInput
     const Profiler& profiler;
     const render::FrameReport& report;
     const render::MemoryReport& memory;
+    const QualityControl* quality = nullptr; // where a frame time is to be held
     std::span<const KeyHint> keys;
     std::string_view message; // of a shader or a file that could not be loaded; shown while it is not empty
 };

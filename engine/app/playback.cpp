@@ -46,7 +46,8 @@ Playback::Playback(gpu::Device& device, Stage& stage, const PlaybackOptions& opt
       recordedKnobs_(render::resolveKnobs(deviceClassOf(device_), stage.settings(), {}))
 {
     if (options.targetMilliseconds)
-        quality_.emplace(*options.targetMilliseconds, knobs_);
+        quality_.emplace(*options.targetMilliseconds, render::resolveKnobs(render::DeviceClass::Gpu, stage.settings(), options.settings),
+                         knobs_);
     if (panels_.areVisible() != options.showsOverlay)
         panels_.toggle();
 }
@@ -113,6 +114,7 @@ void Playback::buildOverlay(float seconds, const Pointer* pointer)
                    .profiler = profiler_,
                    .report = report,
                    .memory = memory,
+                   .quality = quality(),
                    .keys = showsKeys_ ? std::span<const KeyHint>(keyHints_) : std::span<const KeyHint>(),
                    .message = {}},
                   knobs_, splitColumn_);
@@ -137,11 +139,16 @@ void Playback::draw(float seconds, const Pointer* pointer, const gpu::WindowImag
     }
 }
 
-void Playback::measure(double frameMilliseconds)
+void Playback::measure(double frameMilliseconds, double waitMilliseconds)
 {
-    profiler_.record(renderer_.report(), frameMilliseconds);
-    if (quality_)
-        quality_->take(frameMilliseconds, knobs_);
+    const render::FrameReport report = renderer_.report();
+    profiler_.record(report, frameMilliseconds);
+    // A display that makes us wait for its refresh takes no quality, but where it only seems so the device is what we waited for.
+    const double busyMilliseconds = std::max(frameMilliseconds - waitMilliseconds, report.frameMilliseconds.value_or(0));
+    if (quality_ && quality_->take(busyMilliseconds, knobs_))
+        logInfo("{:.1f} ms a frame, {:.1f} wanted: quality {} of {} down, occlusion.samples {}, occlusion.scale {}",
+                quality_->milliseconds(), quality_->targetMilliseconds(), quality_->level(), quality_->lowestLevel(),
+                render::get(knobs_, "occlusion.samples"), render::get(knobs_, "occlusion.scale"));
 }
 
 void Playback::savePicture(const Path& file) { scene::savePng(file, renderer_.picture()); }
@@ -154,6 +161,7 @@ std::string Playback::stats(uint64_t frames) const
                       .size = renderer_.extent(),
                       .frames = frames,
                       .knobs = knobs_,
+                      .quality = quality(),
                       .profiler = profiler_,
                       .report = renderer_.report(),
                       .memory = renderer_.memory()});

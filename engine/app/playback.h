@@ -40,8 +40,8 @@ public:
     void perform(const ScriptStep& step);
     /// One picture of where things stand, into `target` too where there is one. `pointer` works the overlay; null: nobody does.
     void draw(float seconds, const Pointer* pointer, const gpu::WindowImage* target);
-    /// The time of the last picture, by the caller's clock.
-    void measure(double frameMilliseconds);
+    /// The time of the last picture, by the caller's clock, and how much of it went by waiting for the display.
+    void measure(double frameMilliseconds, double waitMilliseconds = 0);
 
     void resize(uvec2 extent) { renderer_.resize(extent); }
     /// The last picture, in a file.
@@ -62,6 +62,7 @@ private:
     void obey(const InputFrame& input);
     void record(const ScriptStep& step);
     void buildOverlay(float seconds, const Pointer* pointer);
+    [[nodiscard]] const QualityControl* quality() const { return quality_ ? &*quality_ : nullptr; }
 
     Stage& stage_;
     gpu::DeviceInfo device_;

@@ -170,7 +170,7 @@ void appendOnce(ordered_json& line, const ScriptStep& step)
         if (step.input.asks(static_cast<Action>(action)))
             line["press"].push_back(kActionNames[action]);
     for (const auto& [key, value] : step.settings)
-        line["set"].push_back(key + "=" + value);
+        line["set"].push_back(fmt::format("{}={}", key, value));
     if (step.splitColumn)
         line["split"] = *step.splitColumn;
 }

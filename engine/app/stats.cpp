@@ -25,6 +25,14 @@ Json knobsOf(const render::Knobs& knobs)
     return values;
 }
 
+Json qualityOf(const QualityControl& quality)
+{
+    return {{"target_ms", quality.targetMilliseconds()},
+            {"held", quality.isTargetHeld()},
+            {"level", quality.level()},
+            {"lowest_level", quality.lowestLevel()}};
+}
+
 Json passesOf(const Profiler& profiler, const render::FrameReport& report)
 {
     Json passes = Json::array();
@@ -59,17 +67,19 @@ Json bytesOf(const render::MemoryReport& memory)
 
 std::string statsJson(const StatsInput& input)
 {
-    const Json stats = {{"device", input.device},
-                        {"driver", input.driver},
-                        {"scene", input.scene},
-                        {"size", {input.size.x, input.size.y}},
-                        {"frames", input.frames},
-                        {"knobs", knobsOf(input.knobs)},
-                        {"frame_ms", summaryOf(input.profiler.frameMilliseconds())},
-                        {"gpu_frame_ms", summaryOf(input.profiler.gpuMilliseconds())},
-                        {"passes", passesOf(input.profiler, input.report)},
-                        {"counters", countersOf(input.report.counters)},
-                        {"memory_bytes", bytesOf(input.memory)}};
+    Json stats = {{"device", input.device},
+                  {"driver", input.driver},
+                  {"scene", input.scene},
+                  {"size", {input.size.x, input.size.y}},
+                  {"frames", input.frames},
+                  {"knobs", knobsOf(input.knobs)},
+                  {"frame_ms", summaryOf(input.profiler.frameMilliseconds())},
+                  {"gpu_frame_ms", summaryOf(input.profiler.gpuMilliseconds())},
+                  {"passes", passesOf(input.profiler, input.report)},
+                  {"counters", countersOf(input.report.counters)},
+                  {"memory_bytes", bytesOf(input.memory)}};
+    if (input.quality != nullptr)
+        stats["quality"] = qualityOf(*input.quality);
     return stats.dump(2) + '\n';
 }
 

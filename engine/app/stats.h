@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/profiler.h"
+#include "app/quality.h"
 
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@ struct StatsInput
     uvec2 size;      // pixels
     uint64_t frames; // without the warm-up
     const render::Knobs& knobs;
+    const QualityControl* quality = nullptr; // where a frame time is to be held
     const Profiler& profiler;
     const render::FrameReport& report;
     const render::MemoryReport& memory;

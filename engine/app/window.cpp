@@ -68,6 +68,16 @@ std::string lastComplaint()
     return description != nullptr ? description : "unknown reason";
 }
 
+// All at rest where there is none, so one that is unplugged lets go of everything. Joysticks that GLFW has no mapping for are no gamepads.
+GLFWgamepadstate firstGamepad()
+{
+    GLFWgamepadstate state{};
+    for (int slot = GLFW_JOYSTICK_1; slot <= GLFW_JOYSTICK_LAST; ++slot)
+        if (glfwGetGamepadState(slot, &state) == GLFW_TRUE)
+            return state;
+    return {};
+}
+
 Window& windowOf(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
 } // namespace
@@ -156,9 +166,7 @@ void Window::readPointer()
 
 void Window::readGamepad()
 {
-    GLFWgamepadstate state{};
-    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &state) != GLFW_TRUE)
-        state = {};
+    const GLFWgamepadstate state = firstGamepad();
     hands_.sticks = {state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], -state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y], state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X],
                      -state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]};
     std::bitset<kPadButtonCount> held;

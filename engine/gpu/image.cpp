@@ -22,22 +22,6 @@ VkImageCreateInfo createInfo(const ImageInfo& info)
             .usage = info.usage};
 }
 
-void transition(VkCommandBuffer commands, VkImage image, uint32_t level, uint32_t levels, VkImageLayout from, VkImageLayout to)
-{
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                        .oldLayout = from,
-                                        .newLayout = to,
-                                        .image = image,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, level, levels, 0, 1}};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 VkOffset3D levelEnd(uvec2 extent, uint32_t level)
 {
     const uvec2 size = glm::max(extent >> level, uvec2(1));
@@ -47,16 +31,16 @@ VkOffset3D levelEnd(uvec2 extent, uint32_t level)
 void fillMips(VkCommandBuffer commands, const Image& image)
 {
     for (uint32_t level = 1; level < image.info().mipLevels; ++level) {
-        transition(commands, image.handle(), level - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        transition(commands, image.handle(), {level - 1, 1}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkImageBlit blit{.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1},
                                .srcOffsets = {{}, levelEnd(image.info().extent, level - 1)},
                                .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1},
                                .dstOffsets = {{}, levelEnd(image.info().extent, level)}};
         vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                        1, &blit, VK_FILTER_LINEAR);
-        transition(commands, image.handle(), level - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL);
+        transition(commands, image.handle(), {level - 1, 1}, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL);
     }
-    transition(commands, image.handle(), image.info().mipLevels - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+    transition(commands, image.handle(), {image.info().mipLevels - 1, 1}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL);
 }
 
@@ -138,6 +122,22 @@ VkMemoryRequirements Image::requirements(Device& device, const ImageInfo& info)
     return needs.memoryRequirements;
 }
 
+void transition(VkCommandBuffer commands, VkImage image, MipRange mips, VkImageLayout from, VkImageLayout to)
+{
+    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                        .oldLayout = from,
+                                        .newLayout = to,
+                                        .image = image,
+                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, mips.first, mips.count, 0, 1}};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 Image uploadedImage(Device& device, std::string_view label, const ImageInfo& info, std::span<const std::byte> texels)
 {
     check(texels.size() == size_t{info.extent.x} * info.extent.y * bytesPerPixel(info.format), "texels that fill the image");
@@ -147,7 +147,7 @@ Image uploadedImage(Device& device, std::string_view label, const ImageInfo& inf
     const Buffer staging(device, "staging", texels.size(), MemoryKind::Upload);
     std::memcpy(staging.mapped(), texels.data(), texels.size());
     device.submitNow([&](VkCommandBuffer commands) {
-        transition(commands, image.handle(), 0, filled.mipLevels, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        transition(commands, image.handle(), {0, filled.mipLevels}, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                        .imageExtent = {filled.extent.x, filled.extent.y, 1}};
         vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);

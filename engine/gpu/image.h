@@ -59,6 +59,15 @@ private:
     uint32_t storageSlot_ = kNoSlot;
 };
 
+struct MipRange
+{
+    uint32_t first = 0;
+    uint32_t count = 1;
+};
+
+/// A colour image's barrier between everything before and everything after, for what no frame graph orders.
+void transition(VkCommandBuffer commands, VkImage image, MipRange mips, VkImageLayout from, VkImageLayout to);
+
 /// A sampled image filled with `texels` (tightly packed rows of the first level) and box-filtered mips; waits. For loading.
 Image uploadedImage(Device& device, std::string_view label, const ImageInfo& info, std::span<const std::byte> texels);
 

@@ -61,22 +61,6 @@ VkSemaphore makeSemaphore(Device& device)
     return semaphore;
 }
 
-void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to)
-{
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                        .oldLayout = from,
-                                        .newLayout = to,
-                                        .image = image,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 } // namespace
 
 Swapchain::Swapchain(Device& device, GLFWwindow* window) : device_(device), window_(window)
@@ -103,6 +87,9 @@ Swapchain::~Swapchain()
 
 uvec2 Swapchain::windowExtent() const
 {
+    // Not every window system makes a window that nobody sees smaller.
+    if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || glfwGetWindowAttrib(window_, GLFW_VISIBLE) == GLFW_FALSE)
+        return uvec2(0);
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     return {width, height};
@@ -202,11 +189,11 @@ void Swapchain::showColor(vec3 color)
         return;
     const VkCommandBuffer commands = device_.beginFrame();
     const VkImage image = target->image->handle();
-    transition(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    transition(commands, image, {0, 1}, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkClearColorValue value{{color.x, color.y, color.z, 1}};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &all);
-    transition(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    transition(commands, image, {0, 1}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     device_.endFrame(target->available, target->finished);
     present();
 }

@@ -28,9 +28,9 @@ public:
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    /// The window's size in pixels; 0 while it is minimised.
+    /// The window's size in pixels; 0 while it is minimised or hidden.
     [[nodiscard]] uvec2 windowExtent() const;
-    /// Nothing while the window is minimised. Follows the window's size, which waits for the device. At most one image is acquired.
+    /// Nothing while the window's extent is 0. Follows the window's size, which waits for the device. At most one image is acquired.
     std::optional<WindowImage> acquire();
     /// Hands the acquired image to the screen once its frame has signalled.
     void present();

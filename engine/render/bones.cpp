@@ -79,7 +79,7 @@ Bones bonesOf(const scene::Model& model)
     Bones bones;
     for (auto& [joint, vertices] : corners) {
         std::ranges::sort(vertices);
-        vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         std::vector<vec3> points;
         for (const uint32_t vertex : vertices)
             points.push_back(mesh.positions[vertex]);

@@ -24,7 +24,6 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
 {
     const float width = static_cast<float>(extent.x), height = static_cast<float>(extent.y);
     block.clipFromWorld = clipFromWorld(camera, extent);
-    block.worldFromClip = glm::inverse(block.clipFromWorld);
     block.eye = camera.eye;
     block.near = camera.nearMetres;
     const float top = std::tan(0.5f * camera.verticalFovRadians), right = top * width / height;
@@ -65,7 +64,6 @@ void FrameBlocks::writeEnvironment(shader::FrameBlock& block, const EnvironmentV
         block.radianceSh[i] = vec3(radiance.coefficients[i]) * environment.intensity;
         block.irradianceSh[i] = vec3(irradiance.coefficients[i]) * environment.intensity;
     }
-    block.shBands = kBands;
     block.environment = scene.environment(environment.image).sampledSlot();
     block.environmentRotation = environment.rotationRadians;
     block.environmentIntensity = environment.intensity;
@@ -76,7 +74,6 @@ uint32_t FrameBlocks::write(const FrameView& view, const GpuScene& scene, uvec2 
     shader::FrameBlock block{};
     writeCamera(block, view.camera, extent);
     writeEnvironment(block, view.environment, scene);
-    block.exposure = view.exposure;
     const gpu::Buffer& frame = blocks_[device_->frameSlot()];
     std::memcpy(frame.mapped(), &block, sizeof(block));
     return frame.slot();

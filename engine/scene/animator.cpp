@@ -64,7 +64,7 @@ Pose& PoseStore::findFreeSlot(ecs::Entity owner, const Model& model)
                     .morphWeightCount = static_cast<uint32_t>(model.restMorphWeights.size())};
     joints_.resize(joints_.size() + pose.jointCount);
     morphWeights_.resize(morphWeights_.size() + pose.morphWeightCount);
-    return slots_.emplace_back(owner, pose).pose;
+    return slots_.emplace_back(Slot{owner, pose}).pose;
 }
 
 Pose PoseStore::give(ecs::Entity owner, const Animator& animator, const Model& model)

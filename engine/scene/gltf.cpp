@@ -65,18 +65,18 @@ tinygltf::Model parse(const Json& root, GltfResources& resources)
     return file;
 }
 
-tinygltf::Model readChecked(std::span<const std::byte> bytes, const Path& folder)
+tinygltf::Model readChecked(std::span<const std::byte> bytes, const Path& folder, Repairs& repairs)
 {
     GltfDocument document = readDocument(bytes);
     checkGltfSchema(document.root);
     checkVersionAndExtensions(document.root);
     GltfResources resources = takeResources(document, folder);
     tinygltf::Model file = parse(document.root, resources);
-    checkAccessors(file);
-    checkNodes(file);
+    checkAccessors(file, repairs);
+    checkNodes(file, repairs);
     checkCameras(file);
-    checkMeshes(file);
-    checkAnimations(file);
+    checkMeshes(file, repairs);
+    checkAnimations(file, repairs);
     return file;
 }
 
@@ -102,8 +102,10 @@ std::string oneLine(std::string text)
 }
 
 // Only of files that loaded: one that is refused ends in one line.
-void warn(const Model& model, const tinygltf::Model& file, const Path& path)
+void warn(const Model& model, const tinygltf::Model& file, const Repairs& repairs, const Path& path)
 {
+    for (const std::string& line : repairs.lines())
+        logWarning("{}: {}", path.string(), line);
     if (model.mesh.indices.empty())
         logWarning("{}: nothing in it is made of triangles", path.string());
     for (size_t i = 0; i < file.buffers.size(); ++i)
@@ -117,10 +119,11 @@ Model loadGltf(const Path& path)
 {
     const std::vector<std::byte> bytes = readFile(path, kGreatestFile);
     try {
-        const tinygltf::Model file = readChecked(bytes, path.has_parent_path() ? path.parent_path() : Path("."));
+        Repairs repairs;
+        const tinygltf::Model file = readChecked(bytes, path.has_parent_path() ? path.parent_path() : Path("."), repairs);
         Model model = build(file);
         model.name = path.stem().string();
-        warn(model, file, path);
+        warn(model, file, repairs, path);
         return model;
     } catch (const Error& error) {
         throw Error(oneLine(error.what()), path.string());

@@ -1,4 +1,5 @@
 // glTF 2.0 in: validates the whole file first, then builds. Reads nothing outside the file's own folder, no device, no network.
+// Accepts what is wrong but can only be meant in one way, with a warning that names the repair.
 // Refuses, by name, compressed geometry (Draco, meshopt) and required extensions it does not know.
 #pragma once
 

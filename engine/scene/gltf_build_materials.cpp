@@ -43,12 +43,32 @@ private:
     std::vector<uint32_t> decoded_;
 };
 
+Wrap wrapOf(int mode)
+{
+    switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return Wrap::Clamp;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return Wrap::Mirror;
+    default: return Wrap::Repeat;
+    }
+}
+
+// Both textures are read at the base colour's coordinates, so they wrap as it does.
+void setWrap(Material& material, const tinygltf::PbrMetallicRoughness& surface, const tinygltf::Model& file)
+{
+    const int texture = surface.baseColorTexture.index >= 0 ? surface.baseColorTexture.index : surface.metallicRoughnessTexture.index;
+    const int sampler = texture < 0 ? -1 : at(file.textures, texture).sampler;
+    if (sampler < 0)
+        return;
+    material.wrapU = wrapOf(at(file.samplers, sampler).wrapS);
+    material.wrapV = wrapOf(at(file.samplers, sampler).wrapT);
+}
+
 vec3 colourOf(const std::vector<double>& factor, vec3 fallback)
 {
     return factor.empty() ? fallback : vec3(factor[0], factor[1], factor[2]);
 }
 
-Material materialOf(const tinygltf::Material& source, ImageUse& images)
+Material materialOf(const tinygltf::Material& source, const tinygltf::Model& file, ImageUse& images)
 {
     const tinygltf::PbrMetallicRoughness& surface = source.pbrMetallicRoughness;
     Material material;
@@ -64,6 +84,7 @@ Material materialOf(const tinygltf::Material& source, ImageUse& images)
     material.twoSided = source.doubleSided;
     material.albedoImage = images.imageOf(surface.baseColorTexture);
     material.metallicRoughnessImage = images.imageOf(surface.metallicRoughnessTexture);
+    setWrap(material, surface, file);
     return material;
 }
 
@@ -73,7 +94,7 @@ void addMaterials(Model& model, const tinygltf::Model& file)
 {
     ImageUse images(model, file);
     for (const tinygltf::Material& material : file.materials)
-        model.materials.push_back(materialOf(material, images));
+        model.materials.push_back(materialOf(material, file, images));
 }
 
 } // namespace antumbra::scene

@@ -23,7 +23,6 @@ struct Version
 {
     int major = 0;
     int minor = 0;
-    auto operator<=>(const Version&) const = default;
 };
 
 Version parseVersion(const std::string& text)
@@ -42,9 +41,11 @@ void checkVersionAndExtensions(const Json& root)
     const Json& asset = root["asset"];
     const Version version = parseVersion(asset["version"]);
     require(version.major == 2, "glTF version {} is not 2", asset["version"].get<std::string>());
-    if (asset.contains("minVersion"))
-        require(parseVersion(asset["minVersion"]) <= Version{2, 0}, "glTF version {} is required, 2.0 is understood",
+    if (asset.contains("minVersion")) {
+        const Version least = parseVersion(asset["minVersion"]);
+        require(least.major < 2 || (least.major == 2 && least.minor == 0), "glTF version {} is required, 2.0 is understood",
                 asset["minVersion"].get<std::string>());
+    }
 
     const auto used = root.value("extensionsUsed", std::vector<std::string>{});
     for (const std::string& name : used)

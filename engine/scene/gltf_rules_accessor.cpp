@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace antumbra::scene {
 
@@ -70,20 +71,23 @@ void checkPlace(const tinygltf::Model& file, const tinygltf::Accessor& accessor,
     checkRun(file, {accessor.bufferView, accessor.byteOffset, accessor.count, layout.extent(), layout.componentSize, stride}, where);
 }
 
-// `declared` are the file's minima or maxima, `actual` those of the data.
-void checkBound(const std::vector<double>& declared, const std::vector<double>& actual, bool isFloat, std::string_view name,
-                const std::string& where)
+std::set<int> positionsOf(const tinygltf::Model& file)
 {
-    require(declared.empty() || declared.size() == actual.size(), "{}.{}: has {} values for {} components", where, name, declared.size(),
-            actual.size());
-    for (size_t i = 0; i < declared.size(); ++i) {
-        const double tolerance = isFloat ? kBoundTolerance * std::max(1.0, std::abs(actual[i])) : 0;
-        require(std::abs(declared[i] - actual[i]) <= tolerance, "{}.{}[{}]: is {}, but the data say {}", where, name, i, declared[i],
-                actual[i]);
-    }
+    std::set<int> positions;
+    for (const tinygltf::Mesh& mesh : file.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            if (const auto found = primitive.attributes.find("POSITION"); found != primitive.attributes.end())
+                positions.insert(found->second);
+    return positions;
 }
 
-void checkValues(const tinygltf::Model& file, const tinygltf::Accessor& accessor, const std::string& where)
+struct Bounds
+{
+    std::vector<double> least;
+    std::vector<double> greatest;
+};
+
+Bounds finiteBounds(const tinygltf::Model& file, const tinygltf::Accessor& accessor, const std::string& where)
 {
     const std::vector<double> values = readRaw(file, accessor);
     const size_t components = layoutOf(accessor).components();
@@ -94,15 +98,37 @@ void checkValues(const tinygltf::Model& file, const tinygltf::Accessor& accessor
         least[i % components] = std::min(least[i % components], values[i]);
         greatest[i % components] = std::max(greatest[i % components], values[i]);
     }
+    return {std::move(least), std::move(greatest)};
+}
+
+bool agree(const std::vector<double>& declared, const std::vector<double>& actual, bool isFloat)
+{
+    return std::ranges::equal(declared, actual, [isFloat](double a, double b) {
+        return std::abs(a - b) <= (isFloat ? kBoundTolerance * std::max(1.0, std::abs(b)) : 0);
+    });
+}
+
+// Only positions and integers are held to the bounds that the file declares: where those disagree, the values are not the ones that
+// were written. Other floats have theirs for nobody.
+void checkBounds(const tinygltf::Accessor& accessor, const Bounds& actual, bool isPosition, const std::string& where, Repairs& repairs)
+{
     const bool isFloat = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-    checkBound(accessor.minValues, least, isFloat, "min", where);
-    checkBound(accessor.maxValues, greatest, isFloat, "max", where);
+    const auto& [least, greatest] = actual;
+    for (const std::vector<double>* declared : {&accessor.minValues, &accessor.maxValues})
+        require(declared->empty() || declared->size() == least.size(), "{}: bounds of {} values for {} components", where, declared->size(),
+                least.size());
+    const bool doAgree = (accessor.minValues.empty() || agree(accessor.minValues, least, isFloat)) &&
+                         (accessor.maxValues.empty() || agree(accessor.maxValues, greatest, isFloat));
+    require(doAgree || (isFloat && !isPosition), "{}: min and max are not those of its values", where);
+    if (!doAgree)
+        repairs.note(where, "bounds that are not those of the values are left aside");
 }
 
 } // namespace
 
-void checkAccessors(const tinygltf::Model& file)
+void checkAccessors(const tinygltf::Model& file, Repairs& repairs)
 {
+    const std::set<int> positions = positionsOf(file);
     uint64_t total = 0;
     for (size_t i = 0; i < file.accessors.size(); ++i) {
         const tinygltf::Accessor& accessor = file.accessors[i];
@@ -115,8 +141,9 @@ void checkAccessors(const tinygltf::Model& file)
         require(total <= kGreatestTotal, "{}: the file's accessors have more than {} values", where, kGreatestTotal);
         if (accessor.sparse.isSparse)
             checkSparse(file, accessor, where);
-        if (hasData(file, accessor))
-            checkValues(file, accessor, where);
+        if (!hasData(file, accessor))
+            continue;
+        checkBounds(accessor, finiteBounds(file, accessor, where), positions.contains(static_cast<int>(i)), where, repairs);
     }
 }
 

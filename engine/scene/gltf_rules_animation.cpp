@@ -15,7 +15,7 @@ size_t morphTargetsOf(const tinygltf::Model& file, int node)
     return mesh < 0 ? 0 : at(file.meshes, mesh).primitives.front().targets.size();
 }
 
-void checkTimes(const tinygltf::Model& file, const tinygltf::Accessor& input, const std::string& where)
+void checkTimes(const tinygltf::Model& file, const tinygltf::Accessor& input, const std::string& where, Repairs& repairs)
 {
     require(input.type == TINYGLTF_TYPE_SCALAR && input.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT, "{}: key times must be floats",
             where);
@@ -23,7 +23,9 @@ void checkTimes(const tinygltf::Model& file, const tinygltf::Accessor& input, co
         return;
     const std::vector<float> times = readFloats(file, input);
     require(times.front() >= 0, "{}: key times begin before zero", where);
-    require(std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end(), "{}: key times do not increase", where);
+    require(std::ranges::is_sorted(times), "{}: key times decrease", where);
+    if (std::ranges::adjacent_find(times) != times.end())
+        repairs.note(where, "of keys at the same time the last one holds");
 }
 
 bool isTightlyPacked(const tinygltf::Model& file, const tinygltf::Accessor& accessor)
@@ -67,7 +69,7 @@ void checkChannel(const tinygltf::Model& file, const tinygltf::AnimationChannel&
 
 } // namespace
 
-void checkAnimations(const tinygltf::Model& file)
+void checkAnimations(const tinygltf::Model& file, Repairs& repairs)
 {
     for (size_t i = 0; i < file.animations.size(); ++i) {
         const tinygltf::Animation& animation = file.animations[i];
@@ -76,7 +78,7 @@ void checkAnimations(const tinygltf::Model& file)
             const tinygltf::Accessor& input = at(file.accessors, animation.samplers[j].input);
             const tinygltf::Accessor& output = at(file.accessors, animation.samplers[j].output);
             require(isTightlyPacked(file, input) && isTightlyPacked(file, output), "{}: buffer views of keys have no byteStride", where);
-            checkTimes(file, input, where);
+            checkTimes(file, input, where, repairs);
         }
         std::set<std::pair<int, std::string>> targets;
         for (size_t j = 0; j < animation.channels.size(); ++j) {

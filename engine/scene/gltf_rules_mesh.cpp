@@ -75,8 +75,9 @@ const AttributeFormat* findFormat(std::string_view name)
 class MeshCheck
 {
 public:
-    explicit MeshCheck(const tinygltf::Model& file)
-        : file_(file), isQuantized_(std::count(file.extensionsUsed.begin(), file.extensionsUsed.end(), "KHR_mesh_quantization") != 0)
+    MeshCheck(const tinygltf::Model& file, Repairs& repairs)
+        : file_(file), repairs_(repairs),
+          isQuantized_(std::count(file.extensionsUsed.begin(), file.extensionsUsed.end(), "KHR_mesh_quantization") != 0)
     {
     }
 
@@ -107,6 +108,7 @@ private:
         const size_t vertices = at(file_.accessors, primitive.attributes.begin()->second).count;
         checkAttributes(primitive.attributes, vertices, 0, where);
         checkSets(primitive, where);
+        checkWeights(primitive.attributes, vertices, where);
         checkPositionBounds(primitive, where);
         for (size_t i = 0; i < primitive.targets.size(); ++i) {
             const std::string place = fmt::format("{}.targets[{}]", where, i);
@@ -184,6 +186,24 @@ private:
         checkSet(material.emissiveTexture);
     }
 
+    // All sets of a vertex together are its shares; the model scales their sum to one.
+    void checkWeights(const Attributes& attributes, size_t vertices, const std::string& where)
+    {
+        std::vector<float> sums(attributes.contains("JOINTS_0") ? vertices : 0);
+        for (int set = 0; !sums.empty() && attributes.contains(fmt::format("JOINTS_{}", set)); ++set) {
+            const tinygltf::Accessor& accessor = at(file_.accessors, attributes.at(fmt::format("WEIGHTS_{}", set)));
+            if (!hasData(file_, accessor))
+                return;
+            const std::vector<float> weights = readFloats(file_, accessor);
+            if (std::ranges::any_of(weights, [](float weight) { return weight < 0; }))
+                repairs_.note(where, "negative weights count as none");
+            for (size_t i = 0; i < weights.size(); ++i)
+                sums[i / 4] += std::max(weights[i], 0.0f);
+        }
+        if (std::ranges::count(sums, 0.0f) != 0)
+            repairs_.note(where, "vertices without weights follow the first joint of their skin");
+    }
+
     void checkPositionBounds(const tinygltf::Primitive& primitive, const std::string& where) const
     {
         const auto position = primitive.attributes.find("POSITION");
@@ -245,6 +265,7 @@ private:
     }
 
     const tinygltf::Model& file_;
+    Repairs& repairs_;
     bool isQuantized_;
     std::map<int, int> ownerOfView_;
     std::map<int, uint32_t> greatest_;
@@ -253,6 +274,6 @@ private:
 
 } // namespace
 
-void checkMeshes(const tinygltf::Model& file) { MeshCheck(file).all(); }
+void checkMeshes(const tinygltf::Model& file, Repairs& repairs) { MeshCheck(file, repairs).all(); }
 
 } // namespace antumbra::scene

@@ -1,6 +1,7 @@
 #include "scene/gltf_rules.h"
 
 #include <algorithm>
+#include <set>
 
 namespace antumbra::scene {
 
@@ -39,9 +40,11 @@ void checkReached(const tinygltf::Model& file, const std::vector<int>& parents)
     require(lost == isReached.end(), "nodes[{}] is its own ancestor", lost - isReached.begin());
 }
 
-void checkSkin(const tinygltf::Model& file, size_t i)
+void checkSkin(const tinygltf::Model& file, size_t i, Repairs& repairs)
 {
     const tinygltf::Skin& skin = file.skins[i];
+    if (std::set(skin.joints.begin(), skin.joints.end()).size() < skin.joints.size())
+        repairs.note(fmt::format("skins[{}]", i), "a node that is two joints stays two joints, each with its own matrix");
     if (skin.inverseBindMatrices < 0)
         return;
     const tinygltf::Accessor& matrices = at(file.accessors, skin.inverseBindMatrices);
@@ -53,7 +56,7 @@ void checkSkin(const tinygltf::Model& file, size_t i)
 
 } // namespace
 
-void checkNodes(const tinygltf::Model& file)
+void checkNodes(const tinygltf::Model& file, Repairs& repairs)
 {
     const std::vector<int> parents = findParents(file);
     checkReached(file, parents);
@@ -65,7 +68,7 @@ void checkNodes(const tinygltf::Model& file)
         for (const int node : file.scenes[i].nodes)
             require(at(parents, node) == kNoParent, "scenes[{}]: nodes[{}] is not a root", i, node);
     for (size_t i = 0; i < file.skins.size(); ++i)
-        checkSkin(file, i);
+        checkSkin(file, i, repairs);
 }
 
 } // namespace antumbra::scene

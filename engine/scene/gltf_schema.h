@@ -37,6 +37,15 @@ struct Rule
     std::string_view excludes{};   // siblings that must not
     Shape shape{};                 // Object
 
+    // Before its uses: in constant expressions clang 14 knows no template that is defined later.
+    template <class T>
+    constexpr Rule with(T Rule::*member, std::type_identity_t<T> value) const
+    {
+        Rule changed = *this;
+        changed.*member = value;
+        return changed;
+    }
+
     constexpr Rule required() const { return with(&Rule::isRequired, true); }
     constexpr Rule distinct() const { return with(&Rule::isDistinct, true); }
     constexpr Rule from(double value) const { return with(&Rule::least, value); }
@@ -46,14 +55,6 @@ struct Rule
     constexpr Rule selecting(std::string_view list) const { return with(&Rule::selects, list); }
     constexpr Rule needing(std::string_view sibling) const { return with(&Rule::needs, sibling); }
     constexpr Rule excluding(std::string_view list) const { return with(&Rule::excludes, list); }
-
-    template <class T>
-    constexpr Rule with(T Rule::*member, std::type_identity_t<T> value) const
-    {
-        Rule changed = *this;
-        changed.*member = value;
-        return changed;
-    }
 };
 
 struct Property

@@ -172,7 +172,7 @@ constexpr Property kScene[] = {
 constexpr Property kSkin[] = {
     {"inverseBindMatrices", indexInto("/accessors")},
     {"skeleton", indexInto("/nodes")},
-    {"joints", arrayOf(indexInto("/nodes")).distinct().required()},
+    {"joints", arrayOf(indexInto("/nodes")).required()},
 };
 
 constexpr Property kRoot[] = {

@@ -18,8 +18,8 @@ constexpr std::array<uint8_t, 256> base64Digits()
     constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<uint8_t, 256> digits{};
     digits.fill(kNoDigit);
-    for (uint8_t i = 0; i < kAlphabet.size(); ++i)
-        digits[static_cast<uint8_t>(kAlphabet[i])] = i;
+    for (size_t i = 0; i < kAlphabet.size(); ++i)
+        digits[static_cast<uint8_t>(kAlphabet[i])] = static_cast<uint8_t>(i);
     return digits;
 }
 

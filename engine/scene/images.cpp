@@ -119,7 +119,7 @@ std::vector<uint8_t> widened(const std::vector<uint8_t>& values, uint32_t channe
     return rgba;
 }
 
-void save(const Path& path, const char* format, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* pixels)
+void save(const Path& path, const char* format, OIIO::ImageSpec spec, const OIIO::TypeDesc& type, const void* pixels)
 {
     std::vector<unsigned char> encoded;
     OIIO::Filesystem::IOVecOutput memory(encoded);

@@ -11,6 +11,9 @@
 
 namespace antumbra::scene {
 
+/// How a picture goes on beyond its edge.
+enum class Wrap { Repeat, Mirror, Clamp };
+
 struct Material
 {
     vec3 albedo{0.8f}; // linear
@@ -21,8 +24,10 @@ struct Material
     float specular = 1; // scale of the dielectric reflection; 0: pure Lambert
     vec3 emission{0};   // W/(m^2 sr)
     bool twoSided = false;
-    uint32_t albedoImage = kNoIndex;            // into Model::images, sRGB
+    uint32_t albedoImage = kNoIndex;            // into Model::images, sRGB; filtered trilinearly whatever the file says
     uint32_t metallicRoughnessImage = kNoIndex; // G roughness, B metallic, linear
+    Wrap wrapU = Wrap::Repeat;                  // of both images, as they share their coordinates
+    Wrap wrapV = Wrap::Repeat;
 };
 
 /// Local translation, rotation, scale.

@@ -7,7 +7,6 @@ const uint kMostShCoefficients = 25u; // 5 bands
 struct FrameBlock
 {
     mat4 clipFromWorld;
-    mat4 worldFromClip;
     vec3 eye; // world
     vec3 cornerRay; // from the eye through the corner of pixel (0, 0), one metre deep; world
     vec3 rayX; // and how it changes a pixel to the right
@@ -16,8 +15,6 @@ struct FrameBlock
     uint environment; // slot of the equirectangular map
     float environmentRotation; // radians about +Y
     float environmentIntensity;
-    float exposure;
-    uint shBands;
     vec3 radianceSh[kMostShCoefficients];   // of the environment, rotated and scaled; W/(m^2 sr)
     vec3 irradianceSh[kMostShCoefficients]; // the same, convolved with the clamped cosine; W/m^2
 };

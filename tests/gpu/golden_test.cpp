@@ -20,7 +20,7 @@ protected:
     /// A file of these cases; it stays until the next test.
     static Path written(const std::string& text)
     {
-        const Path file = Path(testing::TempDir()) / ("antumbra_cases_" + std::to_string(getpid()) + ".json");
+        Path file = Path(testing::TempDir()) / ("antumbra_cases_" + std::to_string(getpid()) + ".json");
         writeText(file, text);
         return file;
     }

@@ -33,10 +33,7 @@ constexpr double kHalfPi = std::numbers::pi / 2;
 class LibCone : public DeviceTest
 {
 protected:
-    std::vector<Out> run(const std::vector<In>& inputs)
-    {
-        return runKernel<Out>(device(), "lib_functions.comp", "BOUNDS", inputs);
-    }
+    std::vector<Out> run(const std::vector<In>& inputs) { return runKernel<Out>(device(), "lib_functions.comp", "BOUNDS", inputs); }
 };
 
 // From far and tiny to touching and inside, from spheres to rods that the ray runs along; rays aim at the capsule, its rim and past it.

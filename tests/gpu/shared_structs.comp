@@ -65,7 +65,6 @@ void put(MaterialBlock value)
 void echo(FrameBlock b)
 {
     put(b.clipFromWorld);
-    put(b.worldFromClip);
     put(b.eye);
     put(b.cornerRay);
     put(b.rayX);
@@ -74,8 +73,6 @@ void echo(FrameBlock b)
     put(b.environment);
     put(b.environmentRotation);
     put(b.environmentIntensity);
-    put(b.exposure);
-    put(b.shBands);
     for (int i = 0; i < b.radianceSh.length(); ++i)
         put(b.radianceSh[i]);
     for (int i = 0; i < b.irradianceSh.length(); ++i)

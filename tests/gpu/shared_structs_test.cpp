@@ -51,8 +51,8 @@ protected:
 TEST_F(SharedStructs, FrameBlock)
 {
     expectSameLayout<shader::FrameBlock>("FRAME_BLOCK", [](const auto& b) {
-        return wordsOf(b.clipFromWorld, b.worldFromClip, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentRotation,
-                       b.environmentIntensity, b.exposure, b.shBands, b.radianceSh, b.irradianceSh);
+        return wordsOf(b.clipFromWorld, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentRotation,
+                       b.environmentIntensity, b.radianceSh, b.irradianceSh);
     });
 }
 

@@ -29,7 +29,7 @@ protected:
         int code;
         std::string output;
     };
-    Result run(std::vector<std::string> arguments, std::vector<Process::Variable> environment = {}) const
+    Result run(std::vector<std::string> arguments, const std::vector<Process::Variable>& environment = {}) const
     {
         arguments.insert(arguments.begin(), ANTUMBRA_PROGRAM);
         const Path log = folder_ / "program.log";

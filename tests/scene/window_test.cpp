@@ -145,5 +145,20 @@ TEST_F(WindowTest, PlaysByRealKeysAndIsResized)
     EXPECT_LE(colorsIn(seen, {410, 250}, {800, 600}), 2u);
 }
 
+TEST_F(WindowTest, DrawsNothingWhileHiddenAndLivesThroughTheSmallestSize)
+{
+    const Screen screen(folder_);
+    Process game({ANTUMBRA_PROGRAM, "play", "plaza", "--size", "160x90", "--frames", "150"},
+                 {{"DISPLAY", screen.name()}, {"WAYLAND_DISPLAY", ""}, {"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"}},
+                 file("game.log"));
+    const std::string window = "^Antumbra: plaza$";
+    hands(screen, {"search", "--sync", "--name", window, "windowsize", "1", "1"});
+    hands(screen, {"search", "--name", window, "windowunmap"});
+    EXPECT_EQ(game.wait(6), std::nullopt) << "its 150 pictures take 2.5 s where they are drawn";
+    hands(screen, {"search", "--name", window, "windowmap", "windowsize", "200", "120"});
+    EXPECT_EQ(game.wait(120), 0) << readText(file("game.log"));
+    EXPECT_THAT(readText(file("game.log")), Not(HasSubstr("Validation Error")));
+}
+
 } // namespace
 } // namespace antumbra::test

@@ -10,9 +10,8 @@ namespace {
 using render::Aov;
 
 constexpr uvec2 kScreen{640, 360}; // the error depends on it: shadows are filtered in pixels
-// Of the mean unshadowed irradiance. The aim is 0.02, which half the resolution meets and CPU devices cannot afford (README, Limits);
-// this bound keeps the defaults from getting worse.
-constexpr double kGreatestError = 0.03;
+// Of the mean unshadowed irradiance.
+constexpr double kGreatestError = 0.02;
 
 class DefaultsTest : public DeviceTest, public testing::WithParamInterface<const char*>
 {

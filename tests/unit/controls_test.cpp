@@ -26,6 +26,15 @@ HandState pressing(Key key)
     return hands;
 }
 
+/// The left stick, to the right and up.
+HandState leaning(vec2 stick)
+{
+    HandState hands;
+    hands.sticks[static_cast<size_t>(PadAxis::LeftX)] = stick.x;
+    hands.sticks[static_cast<size_t>(PadAxis::LeftY)] = stick.y;
+    return hands;
+}
+
 TEST(Controls, EveryKeyHasExactlyOneMeaning)
 {
     std::multiset<Key> used, all;
@@ -44,6 +53,23 @@ TEST(Controls, NoPadButtonHasTwoMeanings)
         if (control.button != PadButton::None) {
             EXPECT_TRUE(used.insert(control.button).second) << control.what;
         }
+}
+
+TEST(Controls, WhatPlayingTakesIsOnTheGamepadToo)
+{
+    std::set<Axis> axes;
+    std::set<Action> actions;
+    for (const Control& control : controls())
+        if (control.stick != PadAxis::None || control.button != PadButton::None) {
+            EXPECT_FALSE(control.padName.empty()) << control.what;
+            if (control.isHeld)
+                axes.insert(control.axis);
+            else
+                actions.insert(control.action);
+        }
+    EXPECT_EQ(axes.size(), kAxisCount);
+    EXPECT_EQ(actions.size(), kActionCount - 2) << "all but screenshot and quit";
+    EXPECT_FALSE(actions.contains(Action::Screenshot) || actions.contains(Action::Quit));
 }
 
 TEST(Controls, EveryActionHasAKey)
@@ -129,14 +155,66 @@ TEST(Input, DragAndWheelAddUpUntilTheNextStep)
 
 TEST(Input, AStickAtRestMovesNothingAndAtItsEndMovesFully)
 {
+    Input input;
+    input.take(leaning({0.1f, 0.1f}));
+    EXPECT_EQ(input.nextStep().move, vec2(0));
+    input.take(leaning({0, 1}));
+    EXPECT_NEAR(input.nextStep().move.y, 1, 1e-6);
+    input.take(leaning({1, -1})); // some pads reach into the corners
+    EXPECT_NEAR(glm::length(input.nextStep().move), 1, 1e-6);
+}
+
+TEST(Input, ASlantedStickKeepsItsDirectionAndStartsGently)
+{
+    Input input;
+    const vec2 direction = glm::normalize(vec2(0.2f, 1));
+    input.take(leaning(0.16f * direction)); // just beyond the dead zone
+    const vec2 gentle = input.nextStep().move;
+    EXPECT_GT(glm::length(gentle), 0);
+    EXPECT_LT(glm::length(gentle), 0.02f);
+    input.take(leaning(0.6f * direction));
+    EXPECT_NEAR(glm::distance(glm::normalize(input.nextStep().move), direction), 0, 1e-5);
+}
+
+TEST(Input, TheRightStickLooksAround)
+{
     HandState hands;
-    hands.sticks[static_cast<size_t>(PadAxis::LeftY)] = 0.1f;
+    hands.sticks[static_cast<size_t>(PadAxis::RightX)] = 1;
     Input input;
     input.take(hands);
-    EXPECT_EQ(input.nextStep().move, vec2(0));
-    hands.sticks[static_cast<size_t>(PadAxis::LeftY)] = 1;
+    const InputFrame step = input.nextStep();
+    EXPECT_GT(step.look.x, 0);
+    EXPECT_EQ(step.look.y, 0);
+    EXPECT_EQ(step.move, vec2(0));
+}
+
+TEST(Input, HeldButtonsHoldAndPressedOnesAskOnce)
+{
+    HandState hands;
+    for (const PadButton button : {PadButton::B, PadButton::Left, PadButton::X})
+        hands.buttonsHeld[static_cast<size_t>(button)] = true;
+    hands.buttonsPressed[static_cast<size_t>(PadButton::X)] = true;
+    Input input;
     input.take(hands);
-    EXPECT_NEAR(input.nextStep().move.y, 1, 1e-6);
+    const InputFrame first = input.nextStep();
+    EXPECT_TRUE(first.isRunning);
+    EXPECT_EQ(first.turnLight, 1);
+    EXPECT_TRUE(first.asks(Action::Wave));
+    const InputFrame second = input.nextStep();
+    EXPECT_TRUE(second.isRunning);
+    EXPECT_FALSE(second.asks(Action::Wave));
+}
+
+TEST(Input, AnUnpluggedGamepadLetsGo)
+{
+    HandState hands = leaning({0, 1});
+    hands.buttonsHeld[static_cast<size_t>(PadButton::B)] = true;
+    Input input;
+    input.take(hands);
+    input.take({}); // as Window reads no gamepad
+    const InputFrame step = input.nextStep();
+    EXPECT_EQ(step.move, vec2(0));
+    EXPECT_FALSE(step.isRunning);
 }
 
 } // namespace

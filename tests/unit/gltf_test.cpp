@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "scene/animation.h"
+#include "scene/gltf_repairs.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +83,7 @@ std::string triangleText(const std::string& more = "", const std::string& nodes 
 
 Path temporary(const std::string& name, const std::string& text)
 {
-    const Path path = Path(testing::TempDir()) / ("antumbra_gltf_" + std::to_string(getpid()) + "_" + name);
+    Path path = Path(testing::TempDir()) / ("antumbra_gltf_" + std::to_string(getpid()) + "_" + name);
     writeText(path, text);
     return path;
 }
@@ -235,6 +236,64 @@ TEST(Gltf, ImagesMustDecodeWhereTheyAreShown)
     EXPECT_NE(refusalOf(temporary("shown.gltf", text)).find("images[0]"), std::string::npos);
     const std::string missing = R"(, "images": [{"uri": "antumbra_absent.png"}])";
     EXPECT_NE(refusalOf(temporary("missing.gltf", triangleText(missing))).find("images[0]"), std::string::npos);
+}
+
+TEST(Gltf, TexturesWrapAsTheirSamplersSay)
+{
+    const std::string pixel = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC";
+    const std::string textures =
+        R"(, "images": [{"uri": "data:image/png;base64,)" + pixel +
+        R"("}], "samplers": [{"wrapS": 33071, "wrapT": 33648}, {}],)"
+        R"( "textures": [{"source": 0, "sampler": 0}, {"source": 0, "sampler": 1}, {"source": 0}], "materials": [)"
+        R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}},)"
+        R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}},)"
+        R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}},)"
+        R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 2}}}, {}])";
+    const std::vector<Material> materials = loadGltf(temporary("wrap.gltf", triangleText(textures))).materials;
+    for (const size_t wrapped : {0, 1}) {
+        EXPECT_EQ(materials.at(wrapped).wrapU, Wrap::Clamp) << wrapped;
+        EXPECT_EQ(materials.at(wrapped).wrapV, Wrap::Mirror) << wrapped;
+    }
+    for (const size_t plain : {2, 3, 4}) {
+        EXPECT_EQ(materials.at(plain).wrapU, Wrap::Repeat) << plain;
+        EXPECT_EQ(materials.at(plain).wrapV, Wrap::Repeat) << plain;
+    }
+}
+
+TEST(Gltf, OnlyPositionsAreHeldToTheirBounds)
+{
+    const std::string end = R"("max": [1, 1, 0]})", position = R"("POSITION": 0)";
+    std::string text = triangleText();
+    text.replace(text.find(end), end.size(),
+                 end + R"(, {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 2, 0]})");
+    EXPECT_EQ(refusalOf(temporary("unheld.gltf", text)), "");
+    text.replace(text.find(position), position.size(), R"("POSITION": 1)");
+    EXPECT_NE(refusalOf(temporary("held.gltf", text)).find("accessors[1]"), std::string::npos);
+}
+
+TEST(Gltf, ANodeMayBeTwoJoints)
+{
+    const std::string skins = R"(, "skins": [{"joints": [1, 1]}])";
+    EXPECT_EQ(refusalOf(temporary("joints.gltf", triangleText(skins, R"([{"mesh": 0, "skin": 0}, {}])"))), "");
+}
+
+TEST(Gltf, RepairsAreToldOnceWithTheirFirstPlace)
+{
+    Repairs repairs;
+    repairs.note("skins[1]", "a remedy");
+    repairs.note("skins[2]", "another");
+    repairs.note("skins[3]", "a remedy");
+    repairs.note("skins[4]", "a remedy");
+    EXPECT_EQ(repairs.lines(), (std::vector<std::string>{"skins[1] and 2 more: a remedy", "skins[2]: another"}));
+    EXPECT_TRUE(Repairs{}.lines().empty());
+}
+
+TEST(Gltf, ARepairIsToldInTheLog)
+{
+    testing::internal::CaptureStderr();
+    const Path path = temporary("told.gltf", triangleText(R"(, "skins": [{"joints": [1, 1]}])", R"([{"mesh": 0, "skin": 0}, {}])"));
+    loadGltf(path);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find(path.string() + ": skins[0]: a node that is two joints"), std::string::npos);
 }
 
 TEST(Gltf, InspectTellsWhatIsThere)

@@ -40,6 +40,7 @@ protected:
                        .profiler = profiler_,
                        .report = report_,
                        .memory = memory_,
+                       .quality = quality_ ? &*quality_ : nullptr,
                        .keys = keys_,
                        .message = message_},
                       knobs_, splitColumn_);
@@ -91,6 +92,7 @@ protected:
     render::Knobs knobs_;
     uint32_t splitColumn_ = 0;
     std::string message_;
+    std::optional<QualityControl> quality_;
     Profiler profiler_;
     Panels panels_;
 
@@ -115,6 +117,15 @@ TEST_F(PanelsTest, HiddenOnesDrawOnlyTheMessage)
     frame();
     frame();
     EXPECT_GT(drawnIndices(), 0);
+}
+
+TEST_F(PanelsTest, AFrameTimeToHoldHasItsLine)
+{
+    const int without = drawnIndices();
+    quality_.emplace(20, knobs_, knobs_);
+    frame();
+    frame();
+    EXPECT_GT(drawnIndices(), without);
 }
 
 TEST_F(PanelsTest, EveryViewHasAButton)

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace antumbra::app {
 namespace {
 
@@ -14,44 +16,105 @@ render::Knobs startKnobs()
     return knobs;
 }
 
-/// As a frame would cost whose time is all in the occlusion pass.
-double cost(const render::Knobs& knobs)
+/// A frame whose time is `fixed` plus what its rays take.
+struct Machine
 {
-    const auto edge = static_cast<double>(knobs.occlusion.scale);
-    return 40.0 * knobs.occlusion.samples / 128 / (edge * edge);
-}
+    double fixed = 0;
+    double raysAtStart = 40;
+    double noise = 0; // share
+    double frames = 0;
 
-void run(QualityControl& quality, render::Knobs& knobs, int frames)
+    double frame(const render::Knobs& knobs)
+    {
+        const auto edge = static_cast<double>(knobs.occlusion.scale);
+        const double swing = std::sin(12.9898 * ++frames); // never the same twice, the same in every run
+        return (fixed + raysAtStart * knobs.occlusion.samples / 128 / (edge * edge)) * (1 + noise * swing);
+    }
+};
+
+/// Returns how often the level changed.
+int run(QualityControl& quality, render::Knobs& knobs, Machine machine, int frames)
 {
+    int changes = 0;
     for (int frame = 0; frame < frames; ++frame)
-        quality.take(cost(knobs), knobs);
+        changes += quality.take(machine.frame(knobs), knobs) ? 1 : 0;
+    return changes;
 }
 
 TEST(Quality, ComesDownUntilTheTargetIsHeldAndStays)
 {
+    for (const double fixed : {0.0, 3.0, 8.0})
+        for (double target = 9; target < 60; target += 0.5) {
+            render::Knobs knobs = startKnobs();
+            QualityControl quality(target, knobs, knobs);
+            run(quality, knobs, {.fixed = fixed}, 200);
+            EXPECT_LE(Machine{.fixed = fixed}.frame(knobs), target);
+            EXPECT_TRUE(quality.isTargetHeld());
+            EXPECT_EQ(run(quality, knobs, {.fixed = fixed}, 1000), 0) << fixed << " ms and a target of " << target;
+        }
+}
+
+TEST(Quality, NoiseMovesItSeldomAndEverLess)
+{
+    for (double target = 9; target < 60; target += 0.5) {
+        render::Knobs knobs = startKnobs();
+        QualityControl quality(target, knobs, knobs);
+        run(quality, knobs, {.fixed = 3, .noise = 0.4}, 4000);
+        EXPECT_LE(run(quality, knobs, {.fixed = 3, .noise = 0.4}, 4000), 2) << target;
+    }
+}
+
+TEST(Quality, ASingleSlowFrameChangesNothing)
+{
     render::Knobs knobs = startKnobs();
-    QualityControl quality(25, knobs);
-    run(quality, knobs, 100);
-    EXPECT_LE(cost(knobs), 25);
-    const uint32_t settled = knobs.occlusion.samples;
-    run(quality, knobs, 400);
-    EXPECT_EQ(knobs.occlusion.samples, settled);
+    QualityControl quality(50, knobs, knobs);
+    for (int frame = 0; frame < 400; ++frame)
+        EXPECT_FALSE(quality.take(frame % 20 == 0 ? 5000 : 40, knobs));
+}
+
+TEST(Quality, RisesWhenTheMachineIsFreeAgainThoughItWasSlowOnTheWayDown)
+{
+    render::Knobs knobs = startKnobs();
+    QualityControl quality(20, knobs, knobs);
+    run(quality, knobs, {.raysAtStart = 400}, 300);
+    EXPECT_EQ(knobs.occlusion.scale, render::Scale::Quarter);
+    run(quality, knobs, {.raysAtStart = 16}, 300);
+    EXPECT_EQ(quality.level(), 0u);
+}
+
+TEST(Quality, BeginsWhereTheKnobsAreAndRisesToWhatFits)
+{
+    for (const double fixed : {0.0, 3.0, 8.0})
+        for (double target = 9; target < 60; target += 0.5) {
+            render::Knobs knobs = startKnobs();
+            knobs.occlusion.samples = 32;
+            knobs.occlusion.scale = render::Scale::Quarter;
+            QualityControl quality(target, startKnobs(), knobs);
+            EXPECT_EQ(quality.level(), quality.lowestLevel());
+            run(quality, knobs, {.fixed = fixed}, 3000);
+            const double settled = Machine{.fixed = fixed}.frame(knobs);
+            EXPECT_LE(settled, target);
+            EXPECT_LE(run(quality, knobs, {.fixed = fixed}, 1000), 0) << fixed << " ms and a target of " << target;
+            EXPECT_TRUE(quality.level() == 0 || 4 * settled > 0.9 * target) << "four times its time would have fitted " << target;
+        }
 }
 
 TEST(Quality, EndsAtTheCheapestWhereNothingHelps)
 {
     render::Knobs knobs = startKnobs();
-    QualityControl quality(0.001, knobs);
-    run(quality, knobs, 1000);
+    QualityControl quality(0.001, knobs, knobs);
+    run(quality, knobs, {}, 1000);
     EXPECT_EQ(knobs.occlusion.samples, 32u);
     EXPECT_EQ(knobs.occlusion.scale, render::Scale::Quarter);
+    EXPECT_EQ(quality.level(), quality.lowestLevel());
+    EXPECT_FALSE(quality.isTargetHeld());
 }
 
 TEST(Quality, RisesAgainButNeverAboveTheStart)
 {
     render::Knobs knobs = startKnobs();
-    QualityControl quality(25, knobs);
-    run(quality, knobs, 200);
+    QualityControl quality(25, knobs, knobs);
+    run(quality, knobs, {}, 200);
     for (int frame = 0; frame < 1000; ++frame)
         quality.take(0.1, knobs);
     EXPECT_EQ(knobs.occlusion.samples, 128u);
@@ -62,9 +125,9 @@ TEST(Quality, SamplesStayMultiplesOf32)
 {
     render::Knobs knobs = startKnobs();
     knobs.occlusion.samples = 352;
-    QualityControl quality(0.001, knobs);
+    QualityControl quality(0.001, knobs, knobs);
     for (int frame = 0; frame < 1000; ++frame) {
-        run(quality, knobs, 1);
+        run(quality, knobs, {}, 1);
         ASSERT_EQ(knobs.occlusion.samples % 32, 0u);
     }
 }

@@ -29,6 +29,7 @@ protected:
                                       .size = {640, 360},
                                       .frames = 2,
                                       .knobs = knobs_,
+                                      .quality = quality_ ? &*quality_ : nullptr,
                                       .profiler = profiler_,
                                       .report = report_,
                                       .memory = memory_}));
@@ -40,6 +41,7 @@ protected:
         .passes = passes_, .absent = absent_, .counters = {.raysConsidered = 4000000000u, .raysTraced = 7, .nanPixels = 3}, .frame = 2};
     render::MemoryReport memory_{.reserved = 5000000000, .used = 4, .transient = 3, .history = 2};
     render::Knobs knobs_;
+    std::optional<QualityControl> quality_;
     Profiler profiler_;
 };
 
@@ -88,6 +90,18 @@ TEST_F(Stats, KnobsReadBackThroughSet)
         render::set(again, key, value.is_string() ? value.get<std::string>() : value.dump());
     for (const render::KnobDescription& knob : render::knobTable())
         EXPECT_EQ(knob.read(again), knob.read(knobs_)) << knob.key;
+}
+
+TEST_F(Stats, SaysWhatIsDoneForAFrameTime)
+{
+    EXPECT_FALSE(written().contains("quality"));
+    knobs_.occlusion.samples = 128;
+    knobs_.occlusion.scale = render::Scale::Full;
+    quality_.emplace(20, knobs_, knobs_);
+    for (int frame = 0; frame < 20; ++frame)
+        quality_->take(30, knobs_);
+    EXPECT_EQ(written()["quality"], (Json{{"target_ms", 20.0}, {"held", false}, {"level", 1}, {"lowest_level", 4}}));
+    EXPECT_EQ(written()["knobs"]["occlusion.samples"], 64);
 }
 
 TEST_F(Stats, CountsAndBytesAreWhole)

@@ -75,7 +75,7 @@ float rounded(double value)
 
 std::vector<Motion> motions()
 {
-    const auto stepping = [](std::string name, Gait gait) {
+    const auto stepping = [](std::string name, const Gait& gait) {
         return Motion{std::move(name), gait.duration, 30 / gait.duration, [gait](double phase) { return poseOf(gait, phase); }};
     };
     return {{"idle", 6, 6, standing},

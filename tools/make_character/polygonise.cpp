@@ -72,8 +72,8 @@ private:
 
     void cut(Tetrahedron corners)
     {
-        const auto outside = std::ranges::stable_partition(corners, [](const Corner& c) { return c.distance < 0; });
-        const size_t insideCount = 4 - outside.size();
+        const auto firstOutside = std::stable_partition(corners.begin(), corners.end(), [](const Corner& c) { return c.distance < 0; });
+        const std::ptrdiff_t insideCount = firstOutside - corners.begin();
         const auto& [a, b, c, d] = corners;
         const dvec3 outwards = d.position - a.position;
         if (insideCount == 1)

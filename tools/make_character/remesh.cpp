@@ -149,7 +149,8 @@ bool Remesher::tryMove(uint32_t vertex, const dvec3& to)
 void Remesher::collapse(Edge edge)
 {
     constexpr double kLongest = 4.0 / 3;
-    const auto [keep, drop] = isPinned_[edge.b] ? Edge{edge.b, edge.a} : edge;
+    const uint32_t keep = isPinned_[edge.b] ? edge.b : edge.a;
+    const uint32_t drop = isPinned_[edge.b] ? edge.a : edge.b;
     const std::vector<uint32_t> aroundKeep = neighbours(keep), aroundDrop = neighbours(drop);
     std::vector<uint32_t> common;
     std::ranges::set_intersection(aroundKeep, aroundDrop, std::back_inserter(common));
@@ -281,7 +282,7 @@ Surface remesh(Surface fine)
         remesher.flipToDelaunay();
         remesher.relax();
     }
-    const Surface result = remesher.surface();
+    Surface result = remesher.surface();
     check(isClosed(result), "a closed surface after remeshing");
     return result;
 }

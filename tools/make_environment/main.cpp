@@ -24,7 +24,8 @@ dvec3 texelOf(RadianceOf radianceOf, uint32_t column, uint32_t row)
     constexpr int kSamples = 6;
     dvec3 sum{0};
     for (int i = 0; i < kSamples * kSamples; ++i) {
-        const double u = (column + (i % kSamples + 0.5) / kSamples) / kWidth, v = (row + (i / kSamples + 0.5) / kSamples) / kHeight;
+        const int across = i % kSamples, down = i / kSamples;
+        const double u = (column + (across + 0.5) / kSamples) / kWidth, v = (row + (down + 0.5) / kSamples) / kHeight;
         sum += radianceOf(bake::equirectangularDirection(u, v));
     }
     return sum / static_cast<double>(kSamples * kSamples);
