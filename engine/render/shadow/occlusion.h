@@ -8,7 +8,7 @@
 
 namespace antumbra::render {
 
-/// Occluded irradiance in W/m^2 where it was traced, with the surface it belongs to (lib/traced.glsl).
+/// Share of the unshadowed irradiance that is hidden, where it was traced, with the surface it belongs to (lib/traced.glsl).
 struct Traced
 {
     graph::ImageRef pixels;  // absent where nothing moves
