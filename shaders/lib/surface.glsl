@@ -4,11 +4,16 @@
 
 #include "lib/octahedral.glsl"
 
+// The way from the eye to what lies `depthView` metres deep.
+vec3 fromEye(FrameBlock frame, vec2 pixel, float depthView)
+{
+    return (frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY) * depthView;
+}
+
 // `pixel` is the pixel's centre in pixels; `depth` is reversed: 1 at the near plane, 0 at infinity.
 vec3 worldPosition(FrameBlock frame, vec2 pixel, float depth)
 {
-    vec3 ray = frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY;
-    return frame.eye + ray * (frame.near / depth);
+    return frame.eye + fromEye(frame, pixel, frame.near / depth);
 }
 
 // How far a position may be off: rounding of the depth, of the way back to the world and of the posed vertices, 2^-24 of the largest
@@ -22,9 +27,6 @@ float positionError(vec3 position, vec3 eye)
 // Where rays leave: on the outer side of the surface, past every error. The normal is the geometric one.
 vec3 rayOrigin(vec3 position, vec3 normalGeometric, vec3 eye) { return position + normalGeometric * (4.0 * positionError(position, eye)); }
 
-// From the eye, `depthView` metres deep.
-vec3 fromEye(FrameBlock frame, vec2 pixel, float depthView) { return (frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY) * depthView; }
-
 // The plane through a pixel's surface, for telling which neighbours lie on it.
 struct PixelPlane
 {
@@ -36,7 +38,7 @@ struct PixelPlane
 
 PixelPlane pixelPlane(FrameBlock frame, vec2 pixel, float depthView, vec3 normal)
 {
-    vec3 ray = frame.cornerRay + pixel.x * frame.rayX + pixel.y * frame.rayY;
+    vec3 ray = fromEye(frame, pixel, 1.0);
     return PixelPlane(dot(normal, ray), vec2(dot(normal, frame.rayX), dot(normal, frame.rayY)), depthView, normal);
 }
 
