@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/fnv1a.h"
 #include "render/extract.h"
 #include "scene/animator.h"
 #include "scene/hierarchy.h"
@@ -28,22 +29,6 @@ std::vector<std::string> knownScenes()
     std::ranges::sort(names);
     return names;
 }
-
-class Fnv1a
-{
-public:
-    template <class T>
-    void add(const T& value)
-    {
-        static_assert(std::is_trivially_copyable_v<T>);
-        for (const std::byte byte : std::as_bytes(std::span(&value, 1)))
-            hash_ = (hash_ ^ static_cast<uint64_t>(byte)) * 0x100000001b3u;
-    }
-    [[nodiscard]] uint64_t value() const { return hash_; }
-
-private:
-    uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 } // namespace
 
