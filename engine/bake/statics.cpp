@@ -27,7 +27,7 @@ void drawCharted(ecs::World& world, scene::Assets& assets, const Statics& static
 {
     check(statics.entities.size() == atlas.meshes.size(), "one charted mesh an entity");
     for (size_t i = 0; i < statics.entities.size(); ++i) {
-        auto& drawable = *world.find<scene::Drawable>(statics.entities[i]);
+        auto& drawable = world.get<scene::Drawable>(statics.entities[i]);
         const scene::Model& drawn = assets.models[drawable.model];
         scene::Model charted = scene::rigidModel(drawn.name, std::move(atlas.meshes[i]), {});
         charted.materials = drawn.materials;
