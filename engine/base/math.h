@@ -15,11 +15,13 @@
 namespace antumbra {
 
 using glm::ivec2;
+using glm::ivec3;
 using glm::ivec4;
 using glm::mat3;
 using glm::mat4;
 using glm::quat;
 using glm::uvec2;
+using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;

@@ -198,6 +198,7 @@ SceneFile loadScene(const Path& file, const Settings& overrides)
     const Path folder = file.parent_path();
 
     SceneFile scene;
+    scene.file = file;
     scene.camera = readCamera(root.object("camera"));
     if (root.has("environment"))
         scene.environment = readEnvironment(root.object("environment"), folder);

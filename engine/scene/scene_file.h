@@ -61,6 +61,7 @@ struct SceneEnvironment
 
 struct SceneFile
 {
+    Path file; // it was read from; empty for a scene that was made
     SceneCamera camera;
     bool autoFrame = false; // the camera is yet to be placed, and the ground to be sized, by what there is to see
     std::optional<SceneEnvironment> environment;
