@@ -5,8 +5,14 @@
 #include "shared/scene.h"
 #include "lib/octahedral.glsl"
 #include "lib/sh.glsl"
+#if defined(BAKED)
+#include "lib/atlas.glsl"
+#elif defined(LOCAL_LIGHT)
+#include "lib/irradiance_volume.glsl"
+#endif
 
 // Variants: TEXTURED where the material may have an image; CUT_OUT, beside it, where it is cut out: discarding puts off the depth test.
+// The first term is the environment's, what is baked (BAKED), or that of baked light that comes in there (LOCAL_LIGHT).
 layout(push_constant, scalar) uniform Push { GBufferDraw pc; };
 
 layout(location = 0) in vec3 positionWorld;
@@ -14,10 +20,31 @@ layout(location = 1) in vec3 normalWorld;
 #ifdef TEXTURED
 layout(location = 2) in vec2 uv;
 #endif
+#ifdef BAKED
+layout(location = 3) in vec2 bakeUv;
+#endif
 
 layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
 layout(location = 1) out vec4 outAlbedo; // a: 1 for what moves
 layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
+
+vec3 firstTerm(vec3 shading)
+{
+#if defined(BAKED)
+    return atlasIrradiance(frameBlock.baked, bakeUv);
+#elif defined(LOCAL_LIGHT)
+    vec3 radiance[9];
+    localRadianceOfQuad(frameBlock.baked, positionWorld, shading, radiance);
+    return irradianceOfSh3(radiance, shading);
+#else
+    float y[9];
+    shBasis3(shading, y);
+    vec3 irradiance = vec3(0.0);
+    for (int i = 0; i < 9; ++i)
+        irradiance += frameBlock.irradianceSh[i] * y[i];
+    return irradiance;
+#endif
+}
 
 void main()
 {
@@ -25,10 +52,6 @@ void main()
 #ifdef TEXTURED
     if (pc.material.albedoImage != kNoImage)
         base *= texture(sampler2D(sampledImages[pc.material.albedoImage], samplers[kLinearRepeat]), uv);
-#endif
-#ifdef CUT_OUT
-    if (base.a < pc.material.alphaCutoff)
-        discard;
 #endif
 
     vec3 toEye = frameBlock.eye - positionWorld;
@@ -40,13 +63,11 @@ void main()
     // The side that is seen is the side that is lit.
     shading = normalize(dot(shading, geometric) < 0.0 ? -shading : shading);
 
-    float y[9];
-    shBasis3(shading, y);
-    vec3 irradiance = vec3(0.0);
-    for (int i = 0; i < 9; ++i)
-        irradiance += frameBlock.irradianceSh[i] * y[i];
-
     outNormals = vec4(octahedralFromUnit(geometric), octahedralFromUnit(shading));
     outAlbedo = vec4(base.rgb, (pc.flags & kDrawDynamic) != 0u ? 1.0 : 0.0);
-    outUnshadowed = vec4(irradiance, pc.material.roughness);
+    outUnshadowed = vec4(firstTerm(shading), pc.material.roughness);
+#ifdef CUT_OUT
+    if (base.a < pc.material.alphaCutoff)
+        discard; // last, as neighbours ask for derivatives and quads share look-ups
+#endif
 }

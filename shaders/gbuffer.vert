@@ -5,15 +5,16 @@
 #include "shared/scene.h"
 
 layout(buffer_reference, scalar) readonly buffer Vectors { vec3 value[]; };
-#ifdef TEXTURED
 layout(buffer_reference, scalar) readonly buffer Uvs { vec2 value[]; };
-#endif
 layout(push_constant, scalar) uniform Push { GBufferDraw pc; };
 
 layout(location = 0) out vec3 positionWorld;
 layout(location = 1) out vec3 normalWorld;
 #ifdef TEXTURED
 layout(location = 2) out vec2 uv;
+#endif
+#ifdef BAKED
+layout(location = 3) out vec2 bakeUv;
 #endif
 
 void main()
@@ -26,6 +27,9 @@ void main()
     normalWorld = vec3(dot(cross(y, z), normal), dot(cross(z, x), normal), dot(cross(x, y), normal));
 #ifdef TEXTURED
     uv = Uvs(pc.uvs).value[gl_VertexIndex];
+#endif
+#ifdef BAKED
+    bakeUv = Uvs(pc.bakeUvs).value[gl_VertexIndex];
 #endif
     gl_Position = frameBlock.clipFromWorld * vec4(positionWorld, 1.0);
 }

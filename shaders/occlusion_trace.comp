@@ -1,6 +1,6 @@
 // Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
 // Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; REFERENCE jitters the points anew each frame; COMPUTE_BVH
-// traces without ray queries.
+// traces without ray queries; LOCAL_LIGHT hides what comes in by the irradiance volume instead of the environment.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -19,6 +19,9 @@
 #include "lib/ray_query.glsl"
 #endif
 #include "lib/traced.glsl"
+#ifdef LOCAL_LIGHT
+#include "lib/irradiance_volume.glsl"
+#endif
 
 layout(buffer_reference, scalar) readonly buffer Samples { vec3 direction[]; };
 layout(buffer_reference, scalar) readonly buffer Blockers { BlockerBlock block[]; };
@@ -213,11 +216,18 @@ void traceSurvivors(Receiver r, bool isSurface)
 
 #endif
 
-vec3 hiddenIrradiance()
+vec3 hiddenIrradiance(Receiver r)
 {
     vec3 sum = vec3(0.0);
+#ifdef LOCAL_LIGHT
+    vec3 radiance[9];
+    localRadiance(frameBlock.baked, r.origin, r.normal, radiance);
+    for (int i = 0; i < 9; ++i)
+        sum += radiance[i] * hidden[i];
+#else
     for (int i = 0; i < 9; ++i)
         sum += frameBlock.radianceSh[i] * hidden[i];
+#endif
     return sum * (kPi / float(pc.sampleCount));
 }
 
@@ -275,11 +285,11 @@ void main()
 #endif
 #ifdef REFERENCE
     if (isInside)
-        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(), 0.0));
+        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(r), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
     vec3 unshadowed = texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb;
-    vec3 share = isSurface ? shareOf(hiddenIrradiance(), unshadowed) : vec3(0.0);
+    vec3 share = isSurface ? shareOf(hiddenIrradiance(r), unshadowed) : vec3(0.0);
     TracedPixel traced = TracedPixel(share, coneCount, blockerDistance, depthView, octahedralFromUnit(r.normal));
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));

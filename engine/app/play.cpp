@@ -113,7 +113,7 @@ ExitCode runPlay(const PlayOptions& options, Gameplay gameplay)
     const bool isScripted = options.script || !window;
     const Script script =
         isScripted ? loadScript(options.script.value_or(projectPath("assets") / "scripts" / "walk.jsonl")) : Script{.seed = kSeed};
-    Stage stage(findScene(options.scene, options.settings), script.seed, gameplay);
+    Stage stage(findScene(options.scene, options.settings), script.seed, gameplay, options.settings);
     if (window)
         playWithWindow(options, *window, stage, script);
     else

@@ -41,8 +41,8 @@ class Still
 {
 public:
     Still(gpu::Device& device, const RenderOptions& options)
-        : stage_(findScene(options.scene, options.settings), 0, noGameplay), renderer_(device, stage_.assets(), options.size),
-          profiler_(options.frames)
+        : stage_(findScene(options.scene, options.settings), 0, noGameplay, options.settings),
+          renderer_(device, stage_.assets(), options.size), profiler_(options.frames)
     {
         stage_.advanceClips(static_cast<float>(options.seconds));
         stage_.extract(view_);

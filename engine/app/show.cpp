@@ -39,7 +39,7 @@ ExitCode runInspect(const InspectOptions& options)
 ExitCode runGraph(const GraphOptions& options)
 {
     gpu::Device device({});
-    const Stage stage(findScene(options.scene, options.settings), 0, noGameplay);
+    const Stage stage(findScene(options.scene, options.settings), 0, noGameplay, options.settings);
     render::Renderer renderer(device, stage.assets(), uvec2(640, 360));
     render::FrameView view;
     stage.extract(view);

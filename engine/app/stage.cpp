@@ -48,9 +48,11 @@ scene::SceneFile findScene(const std::string& scene, const scene::Settings& over
     return scene::loadScene(projectPath("assets") / "scenes" / (scene + ".json"), overrides);
 }
 
-Stage::Stage(const scene::SceneFile& scene, uint64_t seed, Gameplay gameplay) : settings_(scene.settings)
+Stage::Stage(const scene::SceneFile& scene, uint64_t seed, Gameplay gameplay, const render::Settings& overrides) : settings_(scene.settings)
 {
-    scene::populate(world_, world_.setResource(scene::Assets{}), scene);
+    auto& assets = world_.setResource(scene::Assets{});
+    scene::populate(world_, assets, scene);
+    bakedLight_ = loadBakedLight(world_, assets, scene.file, bakeSettingsOf(scene, overrides));
     world_.setResource(InputFrame{});
     world_.setResource(Random(seed));
     world_.setResource(ecs::Seconds{kStepSeconds});
@@ -95,6 +97,10 @@ uint64_t Stage::stateHash() const
     return hash.value();
 }
 
-void Stage::extract(render::FrameView& view) const { render::extract(world_, assets(), view); }
+void Stage::extract(render::FrameView& view) const
+{
+    render::extract(world_, assets(), view);
+    view.bake = bakedLight_.bake ? &*bakedLight_.bake : nullptr;
+}
 
 } // namespace antumbra::app

@@ -2,6 +2,7 @@
 // Draws nothing; the same seed and the same input frames always give the same state.
 #pragma once
 
+#include "app/baked_light.h"
 #include "app/input_frame.h"
 #include "app/random.h"
 #include "ecs/schedule.h"
@@ -26,8 +27,8 @@ scene::SceneFile findScene(const std::string& scene, const scene::Settings& over
 class Stage
 {
 public:
-    /// Loads everything. Throws Error as loadScene() and populate() do.
-    Stage(const scene::SceneFile& scene, uint64_t seed, Gameplay gameplay);
+    /// Loads everything; `overrides` can ask for another bake than the scene's settings do. Throws Error as loadScene() and populate() do.
+    Stage(const scene::SceneFile& scene, uint64_t seed, Gameplay gameplay, const render::Settings& overrides = {});
 
     /// One step of kStepSeconds.
     void step(const InputFrame& input);
@@ -37,19 +38,21 @@ public:
     [[nodiscard]] uint64_t stepCount() const { return stepCount_; }
     /// FNV-1a over the state that steps change, in a fixed order.
     [[nodiscard]] uint64_t stateHash() const;
-    /// Camera, light and what is drawn; knobs, exposure and split stay the caller's.
+    /// Camera, light, bake and what is drawn; knobs, exposure and split stay the caller's. The stage must outlive the frames that show it.
     void extract(render::FrameView& view) const;
 
     [[nodiscard]] const scene::Assets& assets() const { return world_.resource<scene::Assets>(); }
     /// The scene file's knobs.
     [[nodiscard]] const render::Settings& settings() const { return settings_; }
     [[nodiscard]] const ecs::World& world() const { return world_; }
+    [[nodiscard]] const BakedLight& bakedLight() const { return bakedLight_; }
 
 private:
     ecs::World world_;
     ecs::Schedule gameplay_; // of the game
     ecs::Schedule motion_;   // after it: from clips and transforms to poses and matrices
     render::Settings settings_;
+    BakedLight bakedLight_;
     uint64_t stepCount_ = 0;
 };
 

@@ -1,8 +1,9 @@
-// Bakes a scene: deals texels and cells out over threads and, under MPI, over processes, keeps what is done, and goes on from it. What
-// comes out depends on the scene and the settings alone, to the byte.
+// Bakes a scene: deals texels and cells out over threads and processes, keeps what is done, and goes on from it. What comes out depends
+// on the scene and the settings alone, to the byte.
 #pragma once
 
 #include "bake/bake.h"
+#include "bake/peers.h"
 #include "bake/static_scene.h"
 #include "base/file.h"
 
@@ -11,14 +12,14 @@
 
 namespace antumbra::bake {
 
-/// What the baker will take at most, before it starts.
+/// What the baker will take, before it starts; beside what the program holds already.
 struct BakeEstimate
 {
-    uint64_t bytes = 0;
+    uint64_t bytes = 0; // at most, at a time
     uint64_t rays = 0;
 };
 BakeEstimate estimate(const StaticScene& scene, const BakeSettings& settings);
-/// The greatest density at which the bake stays within `mostBytes`; nothing where none does.
+/// About the greatest density, at most the settings', at which the bake stays within `mostBytes`; nothing where none does.
 std::optional<float> densityWithin(const StaticScene& scene, const BakeSettings& settings, uint64_t mostBytes);
 
 struct BakeProgress
@@ -26,21 +27,22 @@ struct BakeProgress
     std::string_view stage; // "direct light", "bounce 1" ..., "volume"
     uint64_t raysDone = 0;
     uint64_t raysAll = 0;
-    double raysPerSecond = 0;
+    double raysPerSecond = 0; // of all processes, since the start; 0 where nothing is known yet
     double secondsLeft = 0;
 };
 
 struct BakeJob
 {
-    uint32_t threads = 0;                            // 0: as many as the machine has
-    Path partial;                                    // what is done is kept here, and removed at the end
-    bool isResumed = false;                          // goes on from `partial`, which must be of this scene and these settings
-    std::function<void(const BakeProgress&)> report; // now and then, from the calling thread; by one process of all
-    std::function<bool()> isInterrupted;             // asked between tiles
+    uint32_t threads = 0;   // of each process; 0: as many as the machine has
+    Peers peers;            // all of them bake the same scene with the same settings
+    Path partial;           // where the first process keeps what is done, also of a whole bake; nowhere where empty
+    bool isResumed = false; // goes on from `partial`, which must be of this scene and these settings
+    std::function<void(const BakeProgress&)> report; // by the first process, from the calling thread, a few times a second
+    std::function<bool()> isInterrupted;             // asked between tiles, from the calling thread
 };
 
-/// Nothing when interrupted: what is done lies in job.partial. Under MPI (base/bake processes that mpirun started) all processes call it,
-/// and the first alone gets the bake. Throws Error where `partial` is not of this scene and these settings.
+/// The same for every process. Nothing when any of them is interrupted: what is done lies in job.partial.
+/// Throws Error where `partial` is of something else, damaged, or cannot be written.
 std::optional<Bake> bakeScene(const StaticScene& scene, const BakeSettings& settings, const BakeJob& job);
 
 } // namespace antumbra::bake

@@ -4,40 +4,13 @@
 #pragma once
 
 #include "bake/bake.h"
+#include "bake/ray_scene.h"
 #include "bake/texels.h"
-
-#include <memory>
 
 namespace antumbra::bake {
 
-/// What rays meet; through Embree. Cut-out surfaces let rays through where they are holes. Any number of threads may trace.
-class RayScene
-{
-public:
-    /// `scene` must outlive it.
-    explicit RayScene(const StaticScene& scene);
-    ~RayScene();
-    RayScene(RayScene&&) noexcept;
-    RayScene& operator=(RayScene&&) noexcept;
-
-    struct Hit
-    {
-        SurfacePoint point;
-        float distance = 0;  // metres
-        bool isBack = false; // of a triangle seen from its inside
-    };
-    /// True where something is hit; the nearest.
-    bool intersect(vec3 origin, vec3 direction, Hit& hit) const;
-
-    [[nodiscard]] const StaticScene& surfaces() const { return *surfaces_; }
-    /// Bytes that the acceleration structure took.
-    [[nodiscard]] uint64_t bytes() const;
-
-private:
-    struct Embree;
-    std::unique_ptr<Embree> embree_;
-    const StaticScene* surfaces_;
-};
+/// Where more of the rays meet surfaces from behind, their origin lies inside something solid: such points count for nothing.
+inline constexpr float kMostBackHits = 0.25f;
 
 struct Range
 {
@@ -59,6 +32,9 @@ struct RayCounts
     uint64_t rays = 0;
 };
 
+// Rays go in packets: texels take settings.raysPerTexel rounded up to whole packets at every point, and no more points than there are
+// packets; cells take settings.raysPerCell rounded up.
+
 /// The environment's own light, at texels `range`.
 RayCounts gatherDirect(const RayScene& rays, const TexelMap& map, const BakeSettings& settings, Range range, Transfers& result);
 
@@ -73,16 +49,17 @@ struct CellLight
     std::vector<vec3> values;
     std::vector<uint8_t> isOpen;
 };
-CellLight noCellLight(const Grid& grid, const BakeSettings& settings);
+CellLight noCellLight(const Grid& grid, const BakeSettings& settings); // zero, nothing open
 
-/// The grid over `bounds` with cells of about settings.cellMetres.
+/// The grid over `bounds` with cells of about `cellMetres`, a point in the middle of each; at least as high as who stands there.
 Grid gridOver(const Aabb& bounds, float cellMetres);
 
 /// `lit`: sum of the transfers of all bounces but the last, by which surfaces shine.
 RayCounts gatherCells(const RayScene& rays, const TexelMap& map, const BakeSettings& settings, const Transfers& lit, const Grid& grid,
                       Range range, CellLight& result);
 
-/// As files and devices hold them; texels and cells that are not valid take their neighbours' where that hides a seam.
+/// As files and devices hold them. Places near a chart take the nearest valid texel's value, so that bilinear look-ups show no seam; all
+/// others, and closed cells, are zero.
 TransferAtlas packed(const Transfers& total, const TexelMap& map);
 IrradianceVolume packed(const CellLight& light, const Grid& grid);
 

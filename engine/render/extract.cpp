@@ -44,9 +44,10 @@ bool isEmpty(const scene::Assets& assets, const scene::Drawable& drawable) { ret
 
 void extractStatics(const ecs::World& world, const scene::Assets& assets, FrameView& view)
 {
-    for (auto [drawable, matrix] : Each<const scene::Drawable, const scene::WorldMatrix, ecs::Without<DynamicSkinned>>(world))
+    for (auto [drawable, matrix, baked] :
+         Each<const scene::Drawable, const scene::WorldMatrix, ecs::Maybe<const scene::StaticPRT>, ecs::Without<DynamicSkinned>>(world))
         if (!isEmpty(assets, drawable))
-            view.statics.push_back({drawable.model, matrix.now});
+            view.statics.push_back({drawable.model, matrix.now, baked != nullptr});
 }
 
 void extractCharacters(const ecs::World& world, const scene::Assets& assets, FrameView& view)

@@ -7,8 +7,6 @@ namespace antumbra::render {
 
 namespace {
 
-constexpr uint32_t kBands = 3;
-
 mat4 reversedPerspective(float verticalFov, float aspect, float near)
 {
     const float f = 1.0f / std::tan(0.5f * verticalFov);
@@ -32,6 +30,16 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
     block.rayY = camera.rotation * vec3{0, -2.0f * top / height, 0};
 }
 
+/// Against ringing: band l weighs 1 / (1 + strength l^2 (l + 1)^2) (Sloan 2008).
+bake::ShFunction windowed(const bake::ShFunction& function, double strength)
+{
+    bake::ShFunction result = function;
+    for (uint32_t band = 0; band < function.bands; ++band)
+        for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i)
+            result.coefficients[i] /= 1 + strength * std::pow(band * (band + 1.0), 2);
+    return result;
+}
+
 } // namespace
 
 mat4 clipFromWorld(const CameraView& camera, uvec2 extent)
@@ -52,13 +60,17 @@ const bake::ShFunction& FrameBlocks::projected(uint32_t environment)
     if (projections_.size() <= environment)
         projections_.resize(environment + 1);
     if (!projections_[environment])
-        projections_[environment] = bake::project(assets_->environments[environment], kBands);
+        projections_[environment] = bake::project(assets_->environments[environment], bake::kMostBands);
     return *projections_[environment];
 }
 
-void FrameBlocks::writeEnvironment(shader::FrameBlock& block, const EnvironmentView& environment, const GpuScene& scene)
+void FrameBlocks::writeEnvironment(const FrameView& view, const GpuScene& scene)
 {
-    const bake::ShFunction radiance = bake::rotatedAboutY(projected(environment.image), environment.rotationRadians);
+    const EnvironmentView& environment = view.environment;
+    shader::FrameBlock& block = newest_;
+    bake::ShFunction radiance = bake::rotatedAboutY(projected(environment.image), environment.rotationRadians);
+    if (view.bake != nullptr)
+        radiance = windowed(radiance, view.knobs.prt.window);
     const bake::ShFunction irradiance = bake::irradianceOf(radiance);
     for (uint32_t i = 0; i < radiance.coefficientCount(); ++i) {
         block.radianceSh[i] = vec3(radiance.coefficients[i]) * environment.intensity;
@@ -69,13 +81,13 @@ void FrameBlocks::writeEnvironment(shader::FrameBlock& block, const EnvironmentV
     block.environmentIntensity = environment.intensity;
 }
 
-uint32_t FrameBlocks::write(const FrameView& view, const GpuScene& scene, uvec2 extent)
+uint32_t FrameBlocks::write(const FrameView& view, const GpuScene& scene, const shader::BakedLight& baked, uvec2 extent)
 {
-    shader::FrameBlock block{};
-    writeCamera(block, view.camera, extent);
-    writeEnvironment(block, view.environment, scene);
+    writeCamera(newest_, view.camera, extent);
+    writeEnvironment(view, scene);
+    newest_.baked = baked;
     const gpu::Buffer& frame = blocks_[device_->frameSlot()];
-    std::memcpy(frame.mapped(), &block, sizeof(block));
+    std::memcpy(frame.mapped(), &newest_, sizeof(newest_));
     return frame.slot();
 }
 

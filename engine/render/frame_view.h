@@ -1,6 +1,7 @@
 // All that the passes of one frame see: flat arrays, no World. Filled by extract, read by everybody behind it.
 #pragma once
 
+#include "bake/bake.h"
 #include "base/math.h"
 #include "render/knobs.h"
 
@@ -30,6 +31,7 @@ struct StaticDraw
 {
     uint32_t model = 0; // into scene::Assets::models
     mat4 world{1};
+    bool isBaked = false; // its first term is FrameView::bake's, where there is one, at the mesh's bakeUvs
 };
 
 /// A posed model. `slot` stays the character's as long as it lives: what the device keeps for it hangs there.
@@ -47,6 +49,7 @@ struct FrameView
 {
     CameraView camera;
     EnvironmentView environment;
+    const bake::Bake* bake = nullptr; // null: nothing is baked; what it points to stays as it is while frames show it
     std::vector<StaticDraw> statics;
     std::vector<CharacterDraw> characters;
     std::vector<mat4> joints;

@@ -36,17 +36,32 @@ Faces facesOf(const DeviceMaterial& material, const mat4& world)
 
 } // namespace
 
-GBufferSystem::GBufferSystem(gpu::Device& device)
+GBufferSystem::FirstTerm GBufferSystem::firstTermOf(const FrameView& view, uint32_t object)
 {
-    constexpr std::array defines{gpu::ShaderDefine{"TEXTURED"}, gpu::ShaderDefine{"CUT_OUT"}};
-    plain_ = makePipeline(device, {});
-    textured_ = makePipeline(device, std::span(defines).first(1));
-    cutOut_ = makePipeline(device, defines);
+    if (view.bake == nullptr)
+        return FirstTerm::Environment;
+    return object < view.statics.size() && view.statics[object].isBaked ? FirstTerm::Atlas : FirstTerm::Volume;
 }
 
-const gpu::Pipeline& GBufferSystem::pipelineFor(const shader::MaterialBlock& material) const
+void GBufferSystem::makePipelines(FirstTerm firstTerm)
 {
-    return material.alphaCutoff > 0.0f ? cutOut_ : material.albedoImage != shader::kNoImage ? textured_ : plain_;
+    MaterialPipelines& made = pipelines_[static_cast<size_t>(firstTerm)];
+    if (made.plain)
+        return;
+    std::vector<gpu::ShaderDefine> defines;
+    if (firstTerm != FirstTerm::Environment)
+        defines.push_back({firstTerm == FirstTerm::Atlas ? "BAKED" : "LOCAL_LIGHT"});
+    made.plain = makePipeline(*device_, defines);
+    defines.push_back({"TEXTURED"});
+    made.textured = makePipeline(*device_, defines);
+    defines.push_back({"CUT_OUT"});
+    made.cutOut = makePipeline(*device_, defines);
+}
+
+const gpu::Pipeline& GBufferSystem::pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material) const
+{
+    const auto& [plain, textured, cutOut] = pipelines_[static_cast<size_t>(firstTerm)];
+    return material.alphaCutoff > 0.0f ? cutOut : material.albedoImage != shader::kNoImage ? textured : plain;
 }
 
 // Nearest first, so that few pixels are shaded twice. What ends behind comes last: a floor or a wall reaches near and lies behind most of
@@ -78,13 +93,23 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
     std::ranges::sort(draws_);
 }
 
-GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
-                               uvec2 extent, bool isKept)
+GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
+                               const Posed& posed, uvec2 extent, bool isKept)
 {
+    if (baked) {
+        makePipelines(FirstTerm::Atlas);
+        makePipelines(FirstTerm::Volume);
+    } else {
+        makePipelines(FirstTerm::Environment);
+    }
     listDraws(view, scene, extent);
     graph::Pass pass = graph.add("g-buffer");
     if (posed.vertices)
         pass.read(posed.vertices, Use::VertexRead);
+    if (baked) {
+        pass.read(baked.texels, Use::StorageRead);
+        pass.read(baked.cells, Use::StorageRead);
+    }
     GBuffer g;
     g.depth = pass.create("depth", {.format = gpu::Format::Depth32Float, .extent = extent, .clear = vec4{0}}, Use::DepthAttachment);
     // Passes ask the depth first, so that only who looks at the images themselves needs something where nothing is.
@@ -97,26 +122,31 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     g.unshadowed = create("unshadowed", kIrradianceFormat);
 
     pass.record([this, &view, &scene, frame](graph::Recorder& recorder) {
-        const auto draw = [&](uint32_t cluster, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,
+        const auto draw = [&](const Draw& each, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,
                               const gpu::Buffer& normals, uint32_t flags) {
-            const Cluster& triangles = model.clusters[cluster];
+            const Cluster& triangles = model.clusters[each.cluster];
             const DeviceMaterial& material = model.materials[triangles.material];
             const mat4 rows = glm::transpose(world);
-            recorder.drawIndexed(
-                pipelineFor(material.block),
-                shader::GBufferDraw{
-                    {rows[0], rows[1], rows[2]}, material.block, positions.address(), normals.address(), model.uvs.address(), frame, flags},
-                model.clusterIndices, triangles.indexCount, facesOf(material, world), triangles.firstIndex);
+            recorder.drawIndexed(pipelineFor(firstTermOf(view, each.object), material.block),
+                                 shader::GBufferDraw{.worldFromLocal = {rows[0], rows[1], rows[2]},
+                                                     .material = material.block,
+                                                     .positions = positions.address(),
+                                                     .normals = normals.address(),
+                                                     .uvs = model.uvs.address(),
+                                                     .bakeUvs = model.bakeUvs.address(),
+                                                     .frame = frame,
+                                                     .flags = flags},
+                                 model.clusterIndices, triangles.indexCount, facesOf(material, world), triangles.firstIndex);
         };
         for (const Draw& each : draws_)
             if (each.object < view.statics.size()) {
                 const StaticDraw& object = view.statics[each.object];
                 const DeviceRest& rest = scene.rest(object.model);
-                draw(each.cluster, scene.model(object.model), object.world, rest.positions, rest.normals, 0);
+                draw(each, scene.model(object.model), object.world, rest.positions, rest.normals, 0);
             } else {
                 const CharacterDraw& object = view.characters[each.object - view.statics.size()];
                 const DeviceCharacter& character = scene.character(object.slot);
-                draw(each.cluster, scene.model(object.model), object.world, character.positions, character.normals, shader::kDrawDynamic);
+                draw(each, scene.model(object.model), object.world, character.positions, character.normals, shader::kDrawDynamic);
             }
     });
     return g;

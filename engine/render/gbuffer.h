@@ -5,6 +5,9 @@
 #include "render/frame_blocks.h"
 #include "render/gpu_scene.h"
 #include "render/posing.h"
+#include "render/shadow/prt.h"
+
+#include <array>
 
 namespace antumbra::render {
 
@@ -20,11 +23,11 @@ struct GBuffer
 class GBufferSystem
 {
 public:
-    explicit GBufferSystem(gpu::Device& device);
+    explicit GBufferSystem(gpu::Device& device) : device_(&device) {}
 
     /// Where nothing is, images other than the depth hold zero if they are kept, else anything.
-    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Posed& posed,
-                    uvec2 extent, bool isKept);
+    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
+                    const Posed& posed, uvec2 extent, bool isKept);
 
 private:
     struct Draw
@@ -36,11 +39,21 @@ private:
         friend auto operator<=>(const Draw&, const Draw&) = default;
     };
 
-    void listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent);
-    [[nodiscard]] const gpu::Pipeline& pipelineFor(const shader::MaterialBlock& material) const;
+    /// Where an object's first term comes from.
+    enum class FirstTerm { Environment, Atlas, Volume };
+    struct MaterialPipelines
+    {
+        gpu::Pipeline plain, textured, cutOut;
+    };
 
-    gpu::Pipeline plain_, textured_, cutOut_;
-    std::vector<Draw> draws_; // of the frame that is declared, nearest first
+    static FirstTerm firstTermOf(const FrameView& view, uint32_t object);
+    void makePipelines(FirstTerm firstTerm);
+    void listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent);
+    [[nodiscard]] const gpu::Pipeline& pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material) const;
+
+    gpu::Device* device_;
+    std::array<MaterialPipelines, 3> pipelines_; // by FirstTerm, each made when first asked for
+    std::vector<Draw> draws_;                    // of the frame that is declared, nearest first
 };
 
 } // namespace antumbra::render

@@ -1,5 +1,6 @@
 #include "render/gpu_scene.h"
 
+#include "base/check.h"
 #include "render/bones.h"
 #include "scene/animation.h"
 
@@ -110,6 +111,17 @@ void GpuScene::makeModel(uint32_t index)
     models_[index] = std::move(made);
 }
 
+void GpuScene::makeBakeUvs(uint32_t index)
+{
+    DeviceModel& model = *models_[index];
+    if (model.bakeUvs)
+        return;
+    ++changes_;
+    const scene::Mesh& mesh = assets_->models[index].mesh;
+    check(mesh.bakeUvs.size() == mesh.positions.size(), "a place on the atlas for every vertex of what is baked");
+    model.bakeUvs = upload(*device_, "bake uvs", mesh.bakeUvs);
+}
+
 void GpuScene::makeSkin(uint32_t index)
 {
     if (slotOf(skins_, index))
@@ -198,6 +210,8 @@ void GpuScene::prepare(const FrameView& view)
     for (const StaticDraw& draw : view.statics) {
         makeModel(draw.model);
         makeRest(draw.model);
+        if (view.bake != nullptr && draw.isBaked)
+            makeBakeUvs(draw.model);
     }
     for (const CharacterDraw& draw : view.characters) {
         makeModel(draw.model);

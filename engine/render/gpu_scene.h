@@ -26,7 +26,8 @@ struct DeviceModel
     gpu::Buffer indices;        // as tracing takes them
     gpu::Buffer clusterIndices; // as the clusters count them
     gpu::Buffer uvs;
-    gpu::Buffer nodes; // BvhNode[], at rest; made for compute-bvh once something moves in the scene
+    gpu::Buffer bakeUvs; // made once it is drawn with baked light
+    gpu::Buffer nodes;   // BvhNode[], at rest; made for compute-bvh once something moves in the scene
     std::vector<Cluster> clusters;
     std::vector<DeviceMaterial> materials;
     std::vector<gpu::Image> images;
@@ -93,6 +94,7 @@ public:
 
 private:
     void makeModel(uint32_t index);
+    void makeBakeUvs(uint32_t index);
     void makeSkin(uint32_t index);
     void makeRest(uint32_t index);
     void makeCharacter(uint32_t slot, uint32_t model);

@@ -2,6 +2,8 @@
 // Holds settings only, never state; a method brings its own line when it comes. Cameras and scenes are not knobs.
 #pragma once
 
+#include "bake/bake.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -29,6 +31,12 @@ struct OcclusionKnobs
     uint32_t builds = 16;
 };
 
+struct PrtKnobs
+{
+    bake::BakeSettings settings; // of a bake that is made; one that is there has its own
+    float window = 0;
+};
+
 struct ReferenceKnobs
 {
     uint32_t samples = 0;
@@ -43,6 +51,7 @@ struct CrowdKnobs
 struct Knobs
 {
     OcclusionKnobs occlusion;
+    PrtKnobs prt;
     ReferenceKnobs reference;
     CrowdKnobs crowd;
     ViewMode view = ViewMode::Final;

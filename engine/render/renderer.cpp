@@ -111,8 +111,9 @@ std::optional<Aov> aovOf(std::string_view name)
 }
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent)
-    : device_(&device), scene_(device, assets), blocks_(device, assets), gbuffer_(device), posing_(device), occlusion_(device),
-      reference_(device), composite_(device), overlay_(device), counters_(device), executor_(device), picture_(makePicture(device, extent))
+    : device_(&device), scene_(device, assets), blocks_(device, assets), prt_(device), gbuffer_(device), posing_(device),
+      occlusion_(device), reference_(device), composite_(device), overlay_(device), counters_(device), executor_(device),
+      picture_(makePicture(device, extent))
 {
 }
 
@@ -148,13 +149,14 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     scene_.prepare(view);
     nearMetres_ = view.camera.nearMetres;
     graph_.reset();
-    const uint32_t frame = blocks_.write(view, scene_, extent());
+    const uint32_t frame = blocks_.write(view, scene_, prt_.prepare(view.bake), extent());
     graph::BufferRef counters = counters_.declareClear(graph_);
 
+    const Baked baked = prt_.declare(graph_, frame, blocks_.newest());
     const Posed posed = posing_.declare(graph_, view, scene_);
-    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, posed, extent(), captures_ != 0);
-    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, g, posed, counters);
-    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, g, posed);
+    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, baked, posed, extent(), captures_ != 0);
+    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, baked, g, posed, counters);
+    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, baked, g, posed);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});
     const Kept kept{.color = isCaptured(Aov::Color),

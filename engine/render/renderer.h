@@ -9,6 +9,7 @@
 #include "render/overlay.h"
 #include "render/posing.h"
 #include "render/shadow/occlusion.h"
+#include "render/shadow/prt.h"
 #include "render/shadow/reference.h"
 
 #include <optional>
@@ -82,6 +83,7 @@ private:
     gpu::Device* device_;
     GpuScene scene_;
     FrameBlocks blocks_;
+    PrtSystem prt_;
     GBufferSystem gbuffer_;
     PosingSystem posing_;
     OcclusionSystem occlusion_;

@@ -23,6 +23,8 @@ using uint = uint32_t;
 
 #include "shaders/shared/overlay.h"
 
+#include "shaders/shared/prt.h"
+
 #include "shaders/shared/eval.h"
 
 } // namespace antumbra::shader

@@ -26,4 +26,13 @@ vec3 evaluateSh3(vec3 coefficients[9], vec3 d)
     return sum;
 }
 
+// The irradiance of a surface that faces `normal`: convolution with the clamped cosine.
+vec3 irradianceOfSh3(vec3 radiance[9], vec3 normal)
+{
+    vec3 irradiance[9];
+    for (int i = 0; i < 9; ++i)
+        irradiance[i] = radiance[i] * (i < 1 ? 3.1415926536 : i < 4 ? 2.0943951024 : 0.7853981634);
+    return evaluateSh3(irradiance, normal);
+}
+
 #endif

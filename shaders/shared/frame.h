@@ -1,8 +1,19 @@
-// What every pass of a frame may read: the camera and the environment.
+// What every pass of a frame may read: the camera, the environment, and where its baked light lies.
 #ifndef SHARED_FRAME_H
 #define SHARED_FRAME_H
 
 const uint kMostShCoefficients = 25u; // 5 bands
+
+struct BakedLight
+{
+    uint64_t texels; // uvec2[]: irradiance over the atlas, W/m^2, three halves
+    uint64_t cells; // CellBlock[], x fastest, then y, then z
+    vec3 origin; // of the first cell; world
+    vec3 cellsPerMetre;
+    ivec3 lastCell;
+    ivec2 lastTexel;
+    uint padding;
+};
 
 struct FrameBlock
 {
@@ -17,6 +28,7 @@ struct FrameBlock
     float environmentIntensity;
     vec3 radianceSh[kMostShCoefficients];   // of the environment, rotated and scaled; W/(m^2 sr)
     vec3 irradianceSh[kMostShCoefficients]; // the same, convolved with the clamped cosine; W/m^2
+    BakedLight baked; // zero where there is none
 };
 
 #endif

@@ -26,6 +26,7 @@ struct GBufferDraw
     uint64_t positions; // vec3[], local
     uint64_t normals; // vec3[]
     uint64_t uvs; // vec2[]
+    uint64_t bakeUvs; // vec2[], of what is baked
     uint frame; // slot of a FrameBlock
     uint flags;
 };

@@ -10,6 +10,7 @@
 #include "shared/bvh.h"
 #include "shared/composite.h"
 #include "shared/eval.h"
+#include "shared/prt.h"
 
 layout(buffer_reference, scalar) writeonly buffer Words { uint word[]; };
 layout(push_constant, scalar) uniform Push
@@ -35,6 +36,16 @@ void put(vec3 value)
 {
     for (int i = 0; i < 3; ++i)
         put(value[i]);
+}
+void put(ivec2 value)
+{
+    for (int i = 0; i < 2; ++i)
+        put(uint(value[i]));
+}
+void put(ivec3 value)
+{
+    for (int i = 0; i < 3; ++i)
+        put(uint(value[i]));
 }
 void put(vec4 value)
 {
@@ -77,6 +88,13 @@ void echo(FrameBlock b)
         put(b.radianceSh[i]);
     for (int i = 0; i < b.irradianceSh.length(); ++i)
         put(b.irradianceSh[i]);
+    put(b.baked.texels);
+    put(b.baked.cells);
+    put(b.baked.origin);
+    put(b.baked.cellsPerMetre);
+    put(b.baked.lastCell);
+    put(b.baked.lastTexel);
+    put(b.baked.padding);
 }
 
 #elif defined(GBUFFER_DRAW)
@@ -90,6 +108,7 @@ void echo(GBufferDraw b)
     put(b.positions);
     put(b.normals);
     put(b.uvs);
+    put(b.bakeUvs);
     put(b.frame);
     put(b.flags);
 }
@@ -297,6 +316,15 @@ void echo(ProbeBlock b)
     put(b.direction);
     put(b.isTraced);
     put(b.far);
+}
+
+#elif defined(CELL_BLOCK)
+
+#define Block CellBlock
+void echo(CellBlock b)
+{
+    for (int i = 0; i < b.halves.length(); ++i)
+        put(b.halves[i]);
 }
 
 #elif defined(IRRADIANCE_CASE)

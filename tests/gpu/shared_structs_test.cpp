@@ -52,7 +52,8 @@ TEST_F(SharedStructs, FrameBlock)
 {
     expectSameLayout<shader::FrameBlock>("FRAME_BLOCK", [](const auto& b) {
         return wordsOf(b.clipFromWorld, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentRotation,
-                       b.environmentIntensity, b.radianceSh, b.irradianceSh);
+                       b.environmentIntensity, b.radianceSh, b.irradianceSh, b.baked.texels, b.baked.cells, b.baked.origin,
+                       b.baked.cellsPerMetre, b.baked.lastCell, b.baked.lastTexel, b.baked.padding);
     });
 }
 
@@ -61,8 +62,13 @@ TEST_F(SharedStructs, GBufferDraw)
     expectSameLayout<shader::GBufferDraw>("GBUFFER_DRAW", [](const auto& b) {
         return wordsOf(b.worldFromLocal, b.material.albedo, b.material.alphaCutoff, b.material.alpha, b.material.roughness,
                        b.material.metallic, b.material.specular, b.material.albedoImage, b.material.metallicRoughnessImage, b.positions,
-                       b.normals, b.uvs, b.frame, b.flags);
+                       b.normals, b.uvs, b.bakeUvs, b.frame, b.flags);
     });
+}
+
+TEST_F(SharedStructs, CellBlock)
+{
+    expectSameLayout<shader::CellBlock>("CELL_BLOCK", [](const auto& b) { return wordsOf(b.halves); });
 }
 
 TEST_F(SharedStructs, MaterialBlock)

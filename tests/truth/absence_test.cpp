@@ -11,8 +11,8 @@ using testing::Contains;
 using testing::IsSupersetOf;
 using testing::Not;
 
-const std::vector<std::string> kPassesOfMotion{"skinning",        "triangle builds",  "scene build",       "bounds",
-                                               "occlusion trace", "occlusion filter"};
+const std::vector<std::string> kPassesOfMotion{"skinning", "triangle builds", "scene build",
+                                               "bounds",   "occlusion trace", "occlusion filter"};
 
 class AbsenceTest : public BackendTest<Backend>
 {
@@ -26,14 +26,6 @@ scene::SceneFile atRest(scene::SceneFile scene)
         entity.animation.reset();
     }
     return scene;
-}
-
-std::vector<std::string> stepsOf(Shown& shown)
-{
-    std::vector<std::string> names;
-    for (const graph::Step& step : shown.renderer().plan().steps)
-        names.emplace_back(shown.renderer().frameGraph().passes()[step.pass].name);
-    return names;
 }
 
 TEST_P(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
@@ -65,11 +57,7 @@ TEST_P(AbsenceTest, WithoutDynamicSkinnedNothingIsPosedTracedOrFiltered)
 /// Device bytes that the scene takes once it runs steadily, whatever stood on the device before.
 uint64_t bytesOf(gpu::Device& device, const Backend& backend, const scene::SceneFile& scene, const char* samples)
 {
-    for (uint32_t frame = 0; frame < 2 * gpu::kFramesInFlight; ++frame) { // what was retired before is freed
-        device.beginFrame();
-        device.endFrame(VK_NULL_HANDLE, VK_NULL_HANDLE);
-    }
-    const uint64_t before = device.memory().stats().usedBytes;
+    const uint64_t before = settledBytes(device);
     Shown shown(device, scene);
     shown.set("occlusion.backend", backend.name);
     shown.set("occlusion.samples", samples);

@@ -4,8 +4,8 @@
 
 namespace antumbra::truth {
 
-Shown::Shown(gpu::Device& device, const scene::SceneFile& scene, uvec2 extent, float seconds)
-    : stage_(scene, 0, app::noGameplay), renderer_(device, stage_.assets(), extent)
+Shown::Shown(gpu::Device& device, const scene::SceneFile& scene, uvec2 extent, float seconds, app::Gameplay gameplay)
+    : stage_(scene, 0, gameplay), renderer_(device, stage_.assets(), extent)
 {
     view_.knobs.occlusion = {
         .culling = render::Culling::Length, .samples = 128, .scale = render::Scale::Full, .filter = 0, .tolerance = 0, .builds = 1000};
@@ -61,6 +61,23 @@ vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, flo
     const float tangent = std::tan(0.5f * camera.verticalFovRadians);
     const vec3 ray(share.x * tangent * size.x / size.y, -share.y * tangent, -1);
     return camera.eye + camera.rotation * (ray * depthView);
+}
+
+std::vector<std::string> stepsOf(Shown& shown)
+{
+    std::vector<std::string> names;
+    for (const graph::Step& step : shown.renderer().plan().steps)
+        names.emplace_back(shown.renderer().frameGraph().passes()[step.pass].name);
+    return names;
+}
+
+uint64_t settledBytes(gpu::Device& device)
+{
+    for (uint32_t frame = 0; frame < 2 * gpu::kFramesInFlight; ++frame) {
+        device.beginFrame();
+        device.endFrame(VK_NULL_HANDLE, VK_NULL_HANDLE);
+    }
+    return device.memory().stats().usedBytes;
 }
 
 std::vector<size_t> surfaceOf(const scene::ImageF& depth)

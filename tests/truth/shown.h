@@ -14,12 +14,15 @@ class Shown
 public:
     static constexpr uvec2 kExtent{96, 54};
 
-    Shown(gpu::Device& device, const scene::SceneFile& scene, uvec2 extent = kExtent, float seconds = 0);
+    Shown(gpu::Device& device, const scene::SceneFile& scene, uvec2 extent = kExtent, float seconds = 0,
+          app::Gameplay gameplay = app::noGameplay);
 
     void set(std::string_view key, std::string_view value) { render::set(view_.knobs, key, value); }
     void advance(float seconds);
     render::FrameView& view() { return view_; }
+    [[nodiscard]] const app::Stage& stage() const { return stage_; }
     render::Renderer& renderer() { return renderer_; }
+    [[nodiscard]] const scene::Assets& assets() const { return stage_.assets(); }
 
     void draw(uint32_t frames = 1);
     /// Of a frame that is drawn for it.
@@ -72,6 +75,11 @@ std::string backendName(const testing::TestParamInfo<Backend>& test);
 
 /// Where the surface of a pixel is; view depth in metres, as Aov::Depth has it.
 vec3 positionAt(const render::CameraView& camera, uvec2 extent, uvec2 pixel, float depthView);
+
+/// The passes of the newest frame, in order.
+std::vector<std::string> stepsOf(Shown& shown);
+/// Device bytes in use once all that was given up is freed.
+uint64_t settledBytes(gpu::Device& device);
 
 /// The pixels that show a surface.
 std::vector<size_t> surfaceOf(const scene::ImageF& depth);

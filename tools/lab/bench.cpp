@@ -71,7 +71,7 @@ void Samples::append(const Samples& more)
 
 Bench::Bench(gpu::Device& device, const app::SweepPoint& point)
     : point_(point), deviceClass_(app::deviceClassOf(device.info())),
-      stage_(app::findScene(point.scene, point.settings), 0, app::noGameplay), renderer_(device, stage_.assets(), point.size)
+      stage_(app::findScene(point.scene, point.settings), 0, app::noGameplay, point.settings), renderer_(device, stage_.assets(), point.size)
 {
     advance(point.seconds);
 }

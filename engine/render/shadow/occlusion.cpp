@@ -12,18 +12,23 @@ constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/trac
 
 } // namespace
 
-gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, Culling culling)
+const gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, Culling culling, bool isLocal)
 {
-    return trace_[backend == RayBackend::ComputeBvh ? 1 : 0][static_cast<size_t>(culling)];
+    const bool usesBvh = backend == RayBackend::ComputeBvh;
+    gpu::Pipeline& trace = trace_[(isLocal ? 2 : 0) + (usesBvh ? 1 : 0)][static_cast<size_t>(culling)];
+    if (!trace) {
+        std::vector<gpu::ShaderDefine> defines{{"CULLING", static_cast<int>(culling)}};
+        if (usesBvh)
+            defines.push_back({"COMPUTE_BVH"});
+        if (isLocal)
+            defines.push_back({"LOCAL_LIGHT"});
+        trace = computePipeline(*device_, "occlusion_trace.comp", defines);
+    }
+    return trace;
 }
 
-void OcclusionSystem::prepare(const OcclusionKnobs& knobs, RayBackend backend)
+void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
 {
-    gpu::Pipeline& trace = tracePipeline(backend, knobs.culling);
-    if (!trace) {
-        const std::array<gpu::ShaderDefine, 2> defines{{{"CULLING", static_cast<int>(knobs.culling)}, {"COMPUTE_BVH"}}};
-        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(backend == RayBackend::ComputeBvh ? 2 : 1));
-    }
     if (knobs.filter > 0 && !filter_)
         filter_ = computePipeline(*device_, "occlusion_filter.comp");
     if (sampleCount_ == knobs.samples)
@@ -34,7 +39,7 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs, RayBackend backend)
 }
 
 graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                              const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+                                              const Baked& baked, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
     const auto pixelScale = static_cast<float>(knobs.scale);
@@ -44,11 +49,13 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     pass.read(g.unshadowed, Use::Sampled);
     pass.read(posed.scene, posed.sceneUse);
     pass.read(posed.bounds, Use::StorageRead);
+    if (baked)
+        pass.read(baked.cells, Use::StorageRead);
     counters = pass.write(counters, Use::StorageWrite);
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
-    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling);
+    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling, static_cast<bool>(baked));
     pass.record([this, &view, &scene, &pipeline, frame, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::OcclusionTrace{.scene = scene.tracedAddress(),
@@ -96,8 +103,8 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
     return filtered;
 }
 
-Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                                const Posed& posed, graph::BufferRef& counters)
+Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
+                                const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     if (!posed.scene) {
         for (const std::string_view pass : {"occlusion trace", "occlusion filter"})
@@ -106,8 +113,8 @@ Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view,
     }
     if (view.knobs.occlusion.backend == RayBackend::RayQuery && scene.backend() != RayBackend::RayQuery)
         graph.skip("occlusion trace, ray-query", "the device has no ray queries: compute-bvh traces instead");
-    prepare(view.knobs.occlusion, scene.backend());
-    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, g, posed, counters);
+    prepare(view.knobs.occlusion);
+    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, baked, g, posed, counters);
     return {declareFilter(graph, view, frame, g, traced), static_cast<uint32_t>(view.knobs.occlusion.scale)};
 }
 

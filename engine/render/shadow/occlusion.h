@@ -20,19 +20,20 @@ class OcclusionSystem
 public:
     explicit OcclusionSystem(gpu::Device& device) : device_(&device) {}
 
-    Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                   const Posed& posed, graph::BufferRef& counters);
+    Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
+                   const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
 
 private:
-    [[nodiscard]] gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling);
-    void prepare(const OcclusionKnobs& knobs, RayBackend backend);
-    graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                                 const Posed& posed, graph::BufferRef& counters);
+    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling, bool isLocal);
+    void prepare(const OcclusionKnobs& knobs);
+    graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
+                                 const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
     graph::ImageRef declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef traced);
 
     gpu::Device* device_;
-    std::array<std::array<gpu::Pipeline, 4>, 2> trace_; // by backend and Culling, each made when first asked for
+    // By backend and whether light is local, and by Culling, each made when first asked for.
+    std::array<std::array<gpu::Pipeline, 4>, 4> trace_;
     gpu::Pipeline filter_;
     gpu::Buffer samples_;
     uint32_t sampleCount_ = 0;

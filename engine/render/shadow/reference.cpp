@@ -44,15 +44,31 @@ uint64_t ReferenceSystem::fingerprint(const FrameView& view, RayBackend backend,
     Fingerprint print;
     print.add(backend).add(extent).add(view.camera.eye).add(view.camera.rotation).add(view.camera.verticalFovRadians);
     print.add(view.environment.image).add(view.environment.rotationRadians).add(view.environment.intensity);
+    print.add(view.bake).add(view.knobs.prt.window);
     for (const StaticDraw& draw : view.statics)
-        print.add(draw.model).add(draw.world);
+        print.add(draw.model).add(draw.world).add(draw.isBaked);
     for (const CharacterDraw& draw : view.characters)
         print.add(draw.slot).add(draw.model).add(draw.world).add(draw.poseVersion);
     return print.value();
 }
 
+const gpu::Pipeline& ReferenceSystem::tracePipeline(RayBackend backend, bool isLocal)
+{
+    const bool usesBvh = backend == RayBackend::ComputeBvh;
+    gpu::Pipeline& trace = trace_[(usesBvh ? 2 : 0) + (isLocal ? 1 : 0)];
+    if (!trace) {
+        std::vector<gpu::ShaderDefine> defines{{"CULLING", 0}, {"REFERENCE"}};
+        if (usesBvh)
+            defines.push_back({"COMPUTE_BVH"});
+        if (isLocal)
+            defines.push_back({"LOCAL_LIGHT"});
+        trace = computePipeline(*device_, "occlusion_trace.comp", defines);
+    }
+    return trace;
+}
+
 graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                         const GBuffer& g, const Posed& posed)
+                                         const Baked& baked, const GBuffer& g, const Posed& posed)
 {
     const uint32_t wanted = wantedSamples(view.knobs);
     if (wanted == 0 || !posed.scene) {
@@ -61,12 +77,7 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         frames_ = 0;
         return {};
     }
-    const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
-    gpu::Pipeline& trace = usesBvh ? traceBvh_ : trace_;
-    if (!trace) {
-        const std::array<gpu::ShaderDefine, 3> defines{{{"CULLING", 0}, {"REFERENCE"}, {"COMPUTE_BVH"}}};
-        trace = computePipeline(*device_, "occlusion_trace.comp", std::span(defines).first(usesBvh ? 3 : 2));
-    }
+    const gpu::Pipeline& trace = tracePipeline(scene.backend(), static_cast<bool>(baked));
     if (!accumulate_)
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     const uvec2 extent = graph.extent(g.depth);
@@ -83,6 +94,8 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         pass.read(g.depth, Use::Sampled);
         pass.read(g.normals, Use::Sampled);
         pass.read(posed.scene, posed.sceneUse);
+        if (baked)
+            pass.read(baked.cells, Use::StorageRead);
         traced = pass.create("reference, traced", {.format = kMeanFormat, .like = g.depth}, Use::StorageWrite);
         const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
         pass.record([&trace, &scene, frame, g, traced, own, summed = frames_](graph::Recorder& recorder) {

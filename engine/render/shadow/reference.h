@@ -3,6 +3,8 @@
 
 #include "render/gbuffer.h"
 
+#include <array>
+
 namespace antumbra::render {
 
 class ReferenceSystem
@@ -11,16 +13,18 @@ public:
     explicit ReferenceSystem(gpu::Device& device) : device_(&device) {}
 
     /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
-    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                            const Posed& posed);
+    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
+                            const GBuffer& g, const Posed& posed);
     /// Accumulated for the view as it stands.
     [[nodiscard]] uint32_t samples() const { return frames_ * samplesAFrame_; }
 
 private:
+    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, bool isLocal);
     [[nodiscard]] static uint64_t fingerprint(const FrameView& view, RayBackend backend, uvec2 extent);
 
     gpu::Device* device_;
-    gpu::Pipeline trace_, traceBvh_, accumulate_;
+    std::array<gpu::Pipeline, 4> trace_; // by backend and whether light is local, each made when first asked for
+    gpu::Pipeline accumulate_;
     graph::HistorySlot history_;
     uint64_t seen_ = 0;
     uint32_t frames_ = 0;

@@ -1,0 +1,112 @@
+#include "truth/baked.h"
+
+#include "bake/statics.h"
+
+#include <glm/gtc/packing.hpp>
+
+namespace antumbra::truth {
+
+namespace {
+
+using scene::MeshKind;
+
+constexpr float kGroundMetres = 6;
+
+void chart(ecs::World& world, ecs::Schedule&)
+{
+    auto& assets = world.resource<scene::Assets>();
+    const bake::Statics statics = bake::staticsOf(world, assets);
+    bake::Atlas atlas;
+    for (const bake::AtlasObject& object : statics.objects) {
+        scene::Mesh& mesh = atlas.meshes.emplace_back(object.model->mesh);
+        for (const vec3& position : mesh.positions)
+            mesh.bakeUvs.emplace_back(position.x + 0.5f, position.z + 0.5f);
+    }
+    bake::drawCharted(world, assets, statics, std::move(atlas));
+}
+
+bake::Bake emptyBake(uint32_t bands)
+{
+    bake::Bake bake{.settings = {.bands = bands}};
+    const size_t coefficients = bake.settings.coefficientCount();
+    bake.atlas.extent = {16, 12};
+    bake.atlas.planes.resize(coefficients * 3 * 16 * 12);
+    bake.volume.grid = {.origin = {-3.4f, -0.3f, -3.6f}, .spacing = {1.7f, 0.9f, 1.4f}, .count = {5, 4, 6}};
+    const size_t cells = bake.volume.grid.cellCount();
+    bake.volume.planes.resize(bake::kLocalCoefficients * coefficients * 3 * cells);
+    bake.volume.isOpen.resize(cells, 1);
+    return bake;
+}
+
+scene::SceneFile bakedGround()
+{
+    scene::SceneFile scene = emptyScene();
+    scene.camera.target = {0, 0.6f, 0};
+    scene.environment =
+        scene::SceneEnvironment{.file = projectPath("assets") / "environments/low_sun.hdr", .rotationRadians = 2, .intensity = 1.3f};
+    scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {kGroundMetres, 1, kGroundMetres}), walker({-0.5f, 0, 0.2f}, "walk"),
+                      movingShape(MeshKind::Sphere, {0.6f, 0.6f, 0}, vec3(0.8f))};
+    return scene;
+}
+
+} // namespace
+
+ShownGround::ShownGround(gpu::Device& device, const bake::Bake* bake) : Shown(device, bakedGround(), Shown::kExtent, 0.3f, chart)
+{
+    view().bake = bake;
+}
+
+vec2 groundUv(vec3 position) { return vec2(position.x, position.z) / kGroundMetres + 0.5f; }
+
+bake::Bake bakeOf(uint32_t bands, const Transport& transport)
+{
+    bake::Bake bake = emptyBake(bands);
+    const uint32_t coefficients = bake.settings.coefficientCount();
+    const auto fill = [](std::vector<uint16_t>& planes, size_t plane, size_t size, double value) {
+        std::fill_n(planes.begin() + static_cast<std::ptrdiff_t>(plane * size), size, glm::packHalf1x16(static_cast<float>(value)));
+    };
+    for (uint32_t i = 0; i < coefficients; ++i)
+        for (uint32_t c = 0; c < 3; ++c) {
+            fill(bake.atlas.planes, size_t{3} * i + c, size_t{bake.atlas.extent.x} * bake.atlas.extent.y, transport.texel(i));
+            for (uint32_t j = 0; j < bake::kLocalCoefficients; ++j)
+                fill(bake.volume.planes, (size_t{j} * coefficients + i) * 3 + c, bake.volume.grid.cellCount(), transport.cell(j, i));
+        }
+    return bake;
+}
+
+double openTexel(uint32_t i)
+{
+    bake::ShFunction one{.bands = bake::kMostBands};
+    one.coefficients[i] = glm::dvec3(1);
+    return bake::evaluate(bake::irradianceOf(one), {0, 1, 0}).x;
+}
+
+double openCell(uint32_t j, uint32_t i) { return i == j ? 1 : 0; }
+
+bake::Bake openBake(uint32_t bands) { return bakeOf(bands, {openTexel, openCell}); }
+
+bake::Bake randomBake(uint32_t bands, uint32_t seed)
+{
+    bake::Bake bake = emptyBake(bands);
+    RandomInputs random(seed);
+    for (std::vector<uint16_t>* planes : {&bake.atlas.planes, &bake.volume.planes})
+        for (uint16_t& value : *planes)
+            value = glm::packHalf1x16(static_cast<float>(random.uniform(-1, 1)));
+    for (uint8_t& isOpen : bake.volume.isOpen)
+        isOpen = random.index(3) != 0 ? 1 : 0;
+    return bake;
+}
+
+bake::ShFunction environmentLight(Shown& shown, uint32_t bands)
+{
+    const render::EnvironmentView& environment = shown.view().environment;
+    bake::ShFunction light =
+        bake::rotatedAboutY(bake::project(shown.assets().environments[environment.image], bands), environment.rotationRadians);
+    const double window = shown.view().knobs.prt.window;
+    for (uint32_t band = 0; band < bands; ++band)
+        for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i)
+            light.coefficients[i] *= environment.intensity / (1 + window * band * band * (band + 1) * (band + 1));
+    return light;
+}
+
+} // namespace antumbra::truth

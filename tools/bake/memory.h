@@ -1,0 +1,11 @@
+// What this process takes of the machine's memory, in bytes.
+#pragma once
+
+#include <cstdint>
+
+namespace antumbra::baking {
+
+uint64_t residentBytes(); // now
+uint64_t peakBytes();     // at most, since the start
+
+} // namespace antumbra::baking
