@@ -4,6 +4,7 @@
 #include "bake/static_scene.h"
 #include "bake/statics.h"
 #include "base/error.h"
+#include "base/log.h"
 
 namespace antumbra::app {
 
@@ -15,7 +16,7 @@ bake::BakeSettings bakeSettingsOf(const scene::SceneFile& scene, const render::S
 BakedLight loadBakedLight(ecs::World& world, scene::Assets& assets, const Path& sceneFile, const bake::BakeSettings& settings)
 {
     const bake::Statics statics = bake::staticsOf(world, assets);
-    if (statics.objects.empty())
+    if (statics.objects.empty() || sceneFile.empty())
         return {};
     try {
         bake::Bake bake = bake::loadBake(bake::bakePathOf(sceneFile));
@@ -28,6 +29,12 @@ BakedLight loadBakedLight(ecs::World& world, scene::Assets& assets, const Path& 
     } catch (const Error& error) {
         return {.bake = {}, .fault = error.what()};
     }
+}
+
+void warnOfMissingBake(const BakedLight& light, const std::string& scene)
+{
+    if (!light.fault.empty())
+        logWarning("{}; StaticPRT is lit without bake: build/tools/bake {} makes one", light.fault, scene);
 }
 
 } // namespace antumbra::app

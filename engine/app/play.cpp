@@ -1,12 +1,16 @@
 // `antumbra play`: a window where there is a display, else headless.
+#include "app/baking.h"
 #include "app/commands.h"
 #include "app/main_loop.h"
+#include "bake/bake_file.h"
 #include "base/file.h"
 #include "base/log.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iostream>
+#include <unistd.h>
 
 namespace antumbra::app {
 
@@ -105,6 +109,36 @@ void playWithoutWindow(const PlayOptions& options, Stage& stage, const Script& s
     finish(playback, options, script);
 }
 
+/// Whether somebody sits there and wants the bake that is missing.
+bool wantsBake(const std::string& fault)
+{
+    if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0)
+        return false;
+    fmt::print(stderr, "{}\nBake its light now? It takes minutes, Ctrl-C keeps what is done. [y/N] ", fault);
+    std::string answer;
+    std::getline(std::cin, answer);
+    return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+/// With baked light where there is some, or somebody waits for it.
+Stage openStage(const PlayOptions& options, uint64_t seed, Gameplay gameplay)
+{
+    const scene::SceneFile scene = findScene(options.scene, options.settings);
+    Stage stage(scene, seed, gameplay, options.settings);
+    if (!stage.bakedLight().fault.empty() && wantsBake(stage.bakedLight().fault)) {
+        const Path output = bake::bakePathOf(scene.file);
+        const InterruptGuard interrupt;
+        if (bakeToFile({.scene = scene,
+                        .settings = bakeSettingsOf(scene, options.settings),
+                        .output = output,
+                        .isResumed = std::filesystem::exists(partialOf(output))},
+                       interrupt))
+            return Stage(scene, seed, gameplay, options.settings);
+    }
+    warnOfMissingBake(stage.bakedLight(), options.scene);
+    return stage;
+}
+
 } // namespace
 
 ExitCode runPlay(const PlayOptions& options, Gameplay gameplay)
@@ -113,7 +147,7 @@ ExitCode runPlay(const PlayOptions& options, Gameplay gameplay)
     const bool isScripted = options.script || !window;
     const Script script =
         isScripted ? loadScript(options.script.value_or(projectPath("assets") / "scripts" / "walk.jsonl")) : Script{.seed = kSeed};
-    Stage stage(findScene(options.scene, options.settings), script.seed, gameplay, options.settings);
+    Stage stage = openStage(options, script.seed, gameplay);
     if (window)
         playWithWindow(options, *window, stage, script);
     else

@@ -44,6 +44,7 @@ public:
         : stage_(findScene(options.scene, options.settings), 0, noGameplay, options.settings),
           renderer_(device, stage_.assets(), options.size), profiler_(options.frames)
     {
+        warnOfMissingBake(stage_.bakedLight(), options.scene);
         stage_.advanceClips(static_cast<float>(options.seconds));
         stage_.extract(view_);
         view_.knobs = render::resolveKnobs(deviceClassOf(device.info()), stage_.settings(), options.settings);

@@ -25,6 +25,8 @@ constexpr uint32_t kMargin = 1;               // texels around a chart that are 
 constexpr float kLeastShare = 1.0f / 16;      // of the density asked: what is worth having
 constexpr float kHopelessShare = 1.0f / 4096; // below, charts do not shrink any more
 constexpr float kDensityStep = 1.005f;
+constexpr float kFewTexels = 4;
+constexpr float kMostFine = 4;
 
 /// One object: its triangles and their charts, whose triangles index the mesh's.
 struct ChartedMesh
@@ -173,12 +175,20 @@ ChartedMesh chartedMesh(const AtlasObject& object)
     return charted;
 }
 
+/// How far a chart reaches on the page, in texels. What is small or narrow is bent or lies in corners, where light changes quickly: a
+/// side of few texels gets up to kMostFine times as many.
+vec2 reachOf(const Chart& chart, float texelsPerMetre)
+{
+    const vec2 even = chart.extent * texelsPerMetre;
+    return glm::max(even, glm::min(kMostFine * even, vec2(kFewTexels)));
+}
+
 /// Texels that a chart covers: one at least, and no more than can be counted.
 uvec2 texelsOf(const Chart& chart, float texelsPerMetre)
 {
     constexpr float kRounding = 1.0e-3f;
     constexpr float kCountable = 1 << 20;
-    return uvec2(glm::clamp(glm::ceil(chart.extent * texelsPerMetre - kRounding), vec2(1), vec2(kCountable)));
+    return uvec2(glm::clamp(glm::ceil(reachOf(chart, texelsPerMetre) - kRounding), vec2(1), vec2(kCountable)));
 }
 
 std::vector<uvec2> rectanglesFor(const std::vector<ChartedMesh>& meshes, float texelsPerMetre)
@@ -243,7 +253,7 @@ void appendPlaced(std::vector<vec2>& bakeUvs, const Chart& chart, uvec2 corner, 
 {
     constexpr float kLeastTexels = 1.0f / 16; // thinner than that, coordinates would coincide
     const vec2 texels(texelsOf(chart, atlas.texelsPerMetre));
-    const vec2 covered = glm::clamp(chart.extent * atlas.texelsPerMetre, vec2(kLeastTexels), texels);
+    const vec2 covered = glm::clamp(reachOf(chart, atlas.texelsPerMetre), vec2(kLeastTexels), texels);
     const vec2 texelsPerMetre = covered / glm::max(chart.extent, vec2(std::numeric_limits<float>::min()));
     const vec2 start = vec2(corner + kMargin) + 0.5f * (texels - covered);
     for (const vec2 place : chart.corners)

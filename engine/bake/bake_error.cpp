@@ -87,8 +87,7 @@ ErrorAgainstTruth errorOf(const Bake& bake, const RayScene& rays, const ShFuncti
     const StaticScene& scene = rays.surfaces();
     uint64_t seed = 0;
     for (const SurfacePoint& point : points) {
-        const vec3 position = positionAt(scene, point), normal = shadingNormalAt(scene, point);
-        const auto traced = [&] { return tracedIrradiance(rays, radiance, bake.settings.bounces, position, normal, paths, seed++); };
+        const auto traced = [&] { return tracedIrradiance(rays, radiance, bake.settings.bounces, point, paths, seed++); };
         const glm::dvec3 truthA = traced(), truthB = traced();
         error.add(atlasIrradiance(bake, radiance, bakeUvAt(scene, point)), truthA, truthB);
     }

@@ -46,8 +46,8 @@ void describe(OIIO::ImageSpec& spec, const Bake& bake, uint64_t checksum, uvec2 
     spec[kVersionAttribute] = kBakeFileVersion;
     spec[kSceneAttribute] = hexadecimal(bake.sceneHash);
     spec[kChecksumAttribute] = hexadecimal(checksum);
-    for (const BakeSetting& setting : bakeSettings())
-        spec[settingAttribute(setting.name)] = static_cast<float>(setting.read(bake.settings));
+    for (const BakeSetting& setting : kBakeSettings)
+        spec[settingAttribute(setting.key)] = static_cast<float>(setting.read(bake.settings));
     const glm::ivec3 count(grid.count);
     spec.attribute(kOriginAttribute, OIIO::TypeVector, &grid.origin);
     spec.attribute(kSpacingAttribute, OIIO::TypeVector, &grid.spacing);

@@ -17,7 +17,7 @@ void addColours(std::vector<std::string>& channels, const std::string& layer)
 
 } // namespace
 
-std::string settingAttribute(std::string_view name) { return fmt::format("antumbra:prt.{}", name); }
+std::string settingAttribute(std::string_view key) { return fmt::format("antumbra:{}", key); }
 
 std::vector<std::string> transferChannels(uint32_t coefficientCount)
 {
@@ -42,7 +42,7 @@ uvec2 volumeExtent(const Grid& grid) { return {grid.count.x, grid.count.y * grid
 uint64_t checksumOf(const Bake& bake)
 {
     Fnv1a hash;
-    for (const BakeSetting& setting : bakeSettings())
+    for (const BakeSetting& setting : kBakeSettings)
         hash.add(setting.read(bake.settings));
     hash.add(bake.sceneHash);
     hash.add(bake.atlas.extent);

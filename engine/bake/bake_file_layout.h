@@ -17,7 +17,7 @@ inline constexpr const char* kOriginAttribute = "antumbra:grid_origin";
 inline constexpr const char* kSpacingAttribute = "antumbra:grid_spacing";
 inline constexpr const char* kCountAttribute = "antumbra:grid_count";
 /// Settings are floats named as their knobs.
-std::string settingAttribute(std::string_view name);
+std::string settingAttribute(std::string_view key);
 
 inline constexpr const char* kTransferPart = "transfer";
 inline constexpr const char* kVolumePart = "volume";

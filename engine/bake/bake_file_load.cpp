@@ -90,8 +90,8 @@ uint64_t BakeReader::hashAttribute(const char* name) const
 BakeSettings BakeReader::readSettings() const
 {
     BakeSettings settings;
-    for (const BakeSetting& setting : bakeSettings()) {
-        const std::string name = settingAttribute(setting.name);
+    for (const BakeSetting& setting : kBakeSettings) {
+        const std::string name = settingAttribute(setting.key);
         const auto value = attribute<float>(name, OIIO::TypeFloat);
         if (!setting.allows(value))
             refuse(fmt::format("attribute {} is {} and out of range", name, value));

@@ -67,7 +67,8 @@ LaneMask lanesAbove(const DirectionPacket& directions, vec3 normal)
     const Lanes height = directions.x * normal.x + directions.y * normal.y + directions.z * normal.z;
     LaneMask above = 0;
     for (uint32_t lane = 0; lane < kLanes; ++lane)
-        above |= (height[lane] > 0 ? 1u : 0u) << lane;
+        if (height[lane] > 0)
+            above |= 1u << lane;
     return above;
 }
 

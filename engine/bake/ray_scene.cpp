@@ -166,7 +166,8 @@ void RayScene::intersect(vec3 origin, const DirectionPacket& directions, LaneMas
         const float facing = query.hit.Ng_x[lane] * query.ray.dir_x[lane] + query.hit.Ng_y[lane] * query.ray.dir_y[lane] +
                              query.hit.Ng_z[lane] * query.ray.dir_z[lane];
         result.hits |= 1u << lane;
-        result.backs |= (facing > 0 ? 1u : 0u) << lane;
+        if (facing > 0)
+            result.backs |= 1u << lane;
         result.points[lane] = {embree_->triangles[query.hit.geomID[lane]][query.hit.primID[lane]], {query.hit.u[lane], query.hit.v[lane]}};
     }
 }

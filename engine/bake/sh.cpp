@@ -1,7 +1,8 @@
 // Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001: the cosine lobe's
-// coefficients (eq. 8) and the product form of irradiance (eq. 7). The basis is written out as polynomials of x, y, z.
+// coefficients (eq. 8) and the product form of irradiance (eq. 7).
 #include "bake/sh.h"
 
+#include "bake/sh_polynomials.h"
 #include "base/check.h"
 
 #include <cmath>
@@ -27,39 +28,9 @@ void accumulate(ShFunction& function, const ShBasis& basis, const dvec3& weighte
 
 ShBasis shBasis(const dvec3& direction)
 {
-    const auto [x, y, z] = std::array{direction.x, direction.y, direction.z};
-    const double xx = x * x, yy = y * y, zz = z * z;
-    return {
-        0.28209479177387814,
-
-        0.4886025119029199 * y,
-        0.4886025119029199 * z,
-        0.4886025119029199 * x,
-
-        1.0925484305920792 * x * y,
-        1.0925484305920792 * y * z,
-        0.31539156525252005 * (3 * zz - 1),
-        1.0925484305920792 * x * z,
-        0.5462742152960396 * (xx - yy),
-
-        0.5900435899266435 * y * (3 * xx - yy),
-        2.890611442640554 * x * y * z,
-        0.4570457994644658 * y * (5 * zz - 1),
-        0.3731763325901154 * z * (5 * zz - 3),
-        0.4570457994644658 * x * (5 * zz - 1),
-        1.445305721320277 * z * (xx - yy),
-        0.5900435899266435 * x * (xx - 3 * yy),
-
-        2.5033429417967046 * x * y * (xx - yy),
-        1.7701307697799304 * y * z * (3 * xx - yy),
-        0.9461746957575601 * x * y * (7 * zz - 1),
-        0.6690465435572892 * y * z * (7 * zz - 3),
-        0.10578554691520431 * (35 * zz * zz - 30 * zz + 3),
-        0.6690465435572892 * x * z * (7 * zz - 3),
-        0.47308734787878004 * (xx - yy) * (7 * zz - 1),
-        1.7701307697799304 * x * z * (xx - 3 * yy),
-        0.6258357354491761 * (xx * (xx - 3 * yy) - yy * (3 * xx - yy)),
-    };
+    ShBasis basis;
+    evaluateShPolynomials<kMostBands, double>(direction.x, direction.y, direction.z, basis.data());
+    return basis;
 }
 
 dvec3 equirectangularDirection(double u, double v)

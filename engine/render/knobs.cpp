@@ -1,5 +1,6 @@
 #include "render/knobs.h"
 
+#include "bake/settings.h"
 #include "base/error.h"
 #include "base/nearest.h"
 
@@ -77,12 +78,25 @@ constexpr KnobDescription knob(std::string_view key, KnobRange range, std::strin
     return knob<Members...>(key, {}, range, doc);
 }
 
+// A setting of the baker.
+template <size_t Index>
+constexpr KnobDescription bakeKnob()
+{
+    constexpr const bake::BakeSetting& setting = bake::kBakeSettings[Index];
+    return {
+        .key = setting.key,
+        .doc = setting.doc,
+        .choices = {},
+        .range = {setting.least, setting.greatest, setting.isWhole ? 1.0 : 0.0},
+        .read = [](const Knobs& knobs) { return setting.read(knobs.prt.settings); },
+        .write = [](Knobs& knobs, double value) { setting.write(knobs.prt.settings, value); },
+    };
+}
+
 using Occlusion = OcclusionKnobs;
-using Bake = bake::BakeSettings;
 using Reference = ReferenceKnobs;
 constexpr auto kOcclusion = &Knobs::occlusion;
 constexpr auto kPrt = &Knobs::prt;
-constexpr auto kBake = &PrtKnobs::settings;
 
 constexpr KnobDescription kTable[] = {
     knob<kOcclusion, &Occlusion::backend>("occlusion.backend", kBackends,
@@ -93,12 +107,13 @@ constexpr KnobDescription kTable[] = {
     knob<kOcclusion, &Occlusion::filter>("occlusion.filter", kFilters, "width of the cross-bilateral kernel in traced pixels; 0 is off"),
     knob<kOcclusion, &Occlusion::tolerance>("occlusion.tolerance", {0, 0.1, 0}, "share of the unshadowed irradiance culling may lose"),
     knob<kOcclusion, &Occlusion::builds>("occlusion.builds", {1, 1000, 1}, "greatest number of BLAS builds a frame"),
-    knob<kPrt, kBake, &Bake::bands>("prt.bands", {2, 5, 1}, "spherical harmonic bands of the light that is baked for"),
-    knob<kPrt, kBake, &Bake::bounces>("prt.bounces", {0, 4, 1}, "diffuse interreflections that are baked"),
-    knob<kPrt, kBake, &Bake::raysPerTexel>("prt.rays", {64, 4096, 1}, "baked rays a texel and bounce"),
-    knob<kPrt, kBake, &Bake::raysPerCell>("prt.cell_rays", {64, 16384, 1}, "baked rays a cell of the irradiance volume"),
-    knob<kPrt, kBake, &Bake::texelsPerMetre>("prt.density", {0.1, 1000, 0}, "texels a metre of baked surface"),
-    knob<kPrt, kBake, &Bake::cellMetres>("prt.cell", {0.05, 100, 0}, "metres between cells of the irradiance volume"),
+    bakeKnob<0>(),
+    bakeKnob<1>(),
+    bakeKnob<2>(),
+    bakeKnob<3>(),
+    bakeKnob<4>(),
+    bakeKnob<5>(),
+    bakeKnob<6>(),
     knob<kPrt, &PrtKnobs::window>("prt.window", {0, 1, 0}, "against ringing of baked light: how much higher bands are damped; 0 is off"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
     knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),

@@ -6,12 +6,16 @@
 #include "bake/baker.h"
 #include "bake/look_up.h"
 #include "bake/path_tracer.h"
+#include "bake/statics.h"
 #include "scene/populate.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
+#include <random>
 
 namespace antumbra::truth {
 namespace {

@@ -7,6 +7,8 @@
 #include "scene/animator.h"
 #include "truth/shown.h"
 
+#include <fmt/format.h>
+
 namespace antumbra::truth {
 namespace {
 
@@ -71,9 +73,11 @@ TEST_F(BakedCharacters, MeetPathTracing)
     const Moment moment = momentOf(shown.stage().world(), shown.stage().assets());
     const bake::RayScene rays(moment.surfaces);
     const render::EnvironmentView& environment = shown.view().environment;
-    const bake::ShFunction light =
+    bake::ShFunction light =
         rotatedAboutY(bake::project(shown.stage().assets().environments[environment.image], shown.view().bake->settings.bands),
                       static_cast<double>(environment.rotationRadians));
+    for (glm::dvec3& coefficient : light.coefficients)
+        coefficient *= static_cast<double>(environment.intensity);
     bake::ErrorAgainstTruth onFloor, onCharacters;
     for (const size_t pixel : surfaceOf(depth)) {
         const auto index = static_cast<uint32_t>(pixel);

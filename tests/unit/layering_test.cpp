@@ -31,7 +31,7 @@ const std::vector<Layer> kLayers{
     {"scene", {"ecs", "base"}},
     {"bake", {"scene", "ecs", "base", "shaders"}},
     {"render", {"graph", "gpu", "bake", "scene", "ecs", "base", "shaders"}},
-    {"app", {"render", "graph", "gpu", "scene", "ecs", "base"}},
+    {"app", {"render", "graph", "gpu", "bake", "scene", "ecs", "base"}},
     {"game", {"app", "scene", "ecs", "base"}},
 };
 

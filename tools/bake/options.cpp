@@ -3,39 +3,17 @@
 #include "bake/bake_file.h"
 #include "bake/settings.h"
 #include "base/error.h"
-#include "base/nearest.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace antumbra::baking {
 
 namespace {
 
 constexpr std::string_view kPrefix = "prt.";
-
-void set(bake::BakeSettings& settings, const std::string& key, const std::string& value)
-{
-    const auto known = bake::bakeSettings();
-    const auto found = std::ranges::find(known, std::string_view(key).substr(kPrefix.size()), &bake::BakeSetting::name);
-    if (found == known.end()) {
-        std::vector<std::string_view> names;
-        std::ranges::transform(known, std::back_inserter(names), &bake::BakeSetting::name);
-        throw Error(
-            fmt::format("no such knob; the nearest is {}{}", kPrefix, nearestWord(std::string_view(key).substr(kPrefix.size()), names)),
-            key);
-    }
-    double number = 0;
-    const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (failure != std::errc{} || end != value.data() + value.size() || !found->allows(number))
-        throw Error(fmt::format("takes {:.6g} to {:.6g}{}, not \"{}\"", found->least, found->greatest,
-                                found->isWhole ? ", a whole number" : "", value),
-                    key);
-    found->write(settings, number);
-}
 
 std::pair<std::string, std::string> splitAtEquals(const std::string& text)
 {
@@ -51,9 +29,9 @@ std::pair<std::string, std::string> splitAtEquals(const std::string& text)
 std::string describeKnobs()
 {
     std::string text = "Knobs of --set:\n";
-    for (const bake::BakeSetting& setting : bake::bakeSettings())
-        text += fmt::format("  {}{:<10} {} ({:.6g} to {:.6g}; {:.6g})\n", kPrefix, setting.name, setting.doc, setting.least,
-                            setting.greatest, setting.read({}));
+    for (const bake::BakeSetting& setting : bake::kBakeSettings)
+        text += fmt::format("  {:<14} {} ({:.6g} to {:.6g}; {:.6g})\n", setting.key, setting.doc, setting.least, setting.greatest,
+                            setting.read({}));
     return text;
 }
 
@@ -88,16 +66,6 @@ std::optional<Options> parse(int argc, char** argv)
     if (options.output.empty())
         options.output = bake::bakePathOf(options.scene);
     return options;
-}
-
-bake::BakeSettings settingsOf(const scene::Settings& sceneFile, const scene::Settings& commandLine)
-{
-    bake::BakeSettings result;
-    for (const scene::Settings* settings : {&sceneFile, &commandLine})
-        for (const auto& [key, value] : *settings)
-            if (key.starts_with(kPrefix))
-                set(result, key, value);
-    return result;
 }
 
 } // namespace antumbra::baking

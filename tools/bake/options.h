@@ -1,7 +1,6 @@
 // The command line of the baker, read and checked into plain data.
 #pragma once
 
-#include "bake/bake.h"
 #include "base/file.h"
 #include "scene/scene_file.h"
 
@@ -22,9 +21,5 @@ struct Options
 
 /// Nothing where help was asked for and given. Throws Error of one line that names the option.
 std::optional<Options> parse(int argc, char** argv);
-
-/// The baker's among the scene's knobs and those of the command line; the latter win. Throws Error for an unknown one that begins with
-/// "prt." and for a value out of range.
-bake::BakeSettings settingsOf(const scene::Settings& sceneFile, const scene::Settings& commandLine);
 
 } // namespace antumbra::baking

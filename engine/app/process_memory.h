@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-namespace antumbra::baking {
+namespace antumbra::app {
 
 uint64_t residentBytes(); // now
 uint64_t peakBytes();     // at most, since the start
 
-} // namespace antumbra::baking
+} // namespace antumbra::app

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-namespace antumbra::baking {
+namespace antumbra::app {
 
 class ProgressBar
 {
@@ -28,4 +28,4 @@ private:
 /// As in "[=====     ]  52 %  bounce 1  3.1 Mrays/s  1:07 left".
 std::string describe(const bake::BakeProgress& progress);
 
-} // namespace antumbra::baking
+} // namespace antumbra::app

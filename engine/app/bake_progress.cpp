@@ -1,4 +1,4 @@
-#include "tools/bake/progress_bar.h"
+#include "app/bake_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace antumbra::baking {
+namespace antumbra::app {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::string describe(const bake::BakeProgress& progress)
     return fmt::format("{}  {:.2f} Mrays/s  {} left", bar, 1.0e-6 * progress.raysPerSecond, duration(progress.secondsLeft));
 }
 
-} // namespace antumbra::baking
+} // namespace antumbra::app

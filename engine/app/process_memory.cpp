@@ -1,10 +1,10 @@
-#include "tools/bake/memory.h"
+#include "app/process_memory.h"
 
 #include <fstream>
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace antumbra::baking {
+namespace antumbra::app {
 
 uint64_t residentBytes()
 {
@@ -21,4 +21,4 @@ uint64_t peakBytes()
     return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-} // namespace antumbra::baking
+} // namespace antumbra::app
