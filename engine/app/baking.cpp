@@ -2,12 +2,11 @@
 
 #include "app/bake_progress.h"
 #include "app/process_memory.h"
+#include "app/surfaces.h"
 #include "bake/bake_file.h"
 #include "bake/baker.h"
-#include "bake/statics.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "scene/populate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,24 +18,6 @@ namespace antumbra::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// What is baked; the surfaces refer to the assets.
-struct Static
-{
-    scene::Assets assets;
-    bake::StaticScene surfaces;
-};
-
-void load(const BakeRequest& request, Static& result)
-{
-    ecs::World world;
-    scene::populate(world, result.assets, request.scene);
-    const bake::Statics statics = bake::staticsOf(world, result.assets);
-    if (statics.objects.empty())
-        throw Error("nothing to bake: nothing in the scene is StaticPRT", request.scene.file.string());
-    result.surfaces =
-        bake::flatten(statics.objects, bake::layOut(statics.objects, {request.settings.texelsPerMetre, request.settings.mostTexels}));
-}
 
 double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
@@ -61,11 +42,10 @@ Path partialOf(const Path& output) { return output.string() + ".partial"; }
 bool bakeToFile(const BakeRequest& request, const InterruptGuard& interrupt)
 {
     const Clock::time_point started = Clock::now();
-    Static statics;
-    load(request, statics);
+    const Surfaces surfaces(request.scene, request.settings);
     const uint64_t loadedBytes = residentBytes();
-    const bake::BakeEstimate estimate = bake::estimate(statics.surfaces, request.settings);
-    checkMemory(request, statics.surfaces, loadedBytes, estimate.bytes);
+    const bake::BakeEstimate estimate = bake::estimate(surfaces.scene, request.settings);
+    checkMemory(request, surfaces.scene, loadedBytes, estimate.bytes);
 
     bake::BakeJob job{.threads = request.threads,
                       .peers = request.peers,
@@ -76,7 +56,7 @@ bool bakeToFile(const BakeRequest& request, const InterruptGuard& interrupt)
     {
         ProgressBar bar;
         job.report = [&bar](const bake::BakeProgress& progress) { bar.show(progress); };
-        bake = bakeScene(statics.surfaces, request.settings, job);
+        bake = bakeScene(surfaces.scene, request.settings, job);
     }
     const bool isFirst = request.peers.rank == 0;
     if (!bake && isFirst)

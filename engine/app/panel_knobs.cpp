@@ -64,7 +64,7 @@ void buildKnobs(Knobs& knobs)
 {
     ImGui::PushItemWidth(kFieldWidth);
     for (const KnobDescription& knob : render::knobTable()) {
-        if (knob.key == kViewKey)
+        if (knob.key == kViewKey || !knob.isLive)
             continue;
         if (knob.choices.empty())
             buildNumber(knob, knobs);

@@ -17,6 +17,9 @@ using nlohmann::json;
 using scene::JsonObject;
 
 constexpr std::string_view kOwnKnobs[] = {"view", "reference.samples"}; // of the lab: it draws the truth itself
+constexpr std::string_view kBakeKnobs = "prt.";
+constexpr scene::Words<Measure, 2> kMeasures{{{"frames", Measure::Frames}, {"bakes", Measure::Bakes}}};
+constexpr scene::Words<BakeTruth, 2> kTruths{{{"bands", BakeTruth::Bands}, {"map", BakeTruth::Map}}};
 constexpr size_t kMostPoints = 10'000;
 
 /// A knob and the values it takes.
@@ -80,23 +83,46 @@ std::vector<SweepPoint> expand(const SweepPoint& point, const Grid& grid, const 
     return points;
 }
 
-SweepPoint readPoint(const JsonObject& object)
+void readFrames(const JsonObject& object, SweepPoint& point)
 {
-    object.allowOnly({"name", "scene", "size", "time", "frames", "animate", "reference", "settings", "grid"});
-    SweepPoint point;
-    point.scene = object.text("scene", "");
-    if (point.scene.empty())
-        object.refuse("", "needs \"scene\"");
-    point.name = object.text("name", point.scene);
+    object.allowOnly({"name", "scene", "reference", "settings", "grid"}, {"size", "time", "frames", "animate", "turn"});
     point.size = uvec2(object.vector("size", vec2(point.size), {16, 8192}));
     point.seconds = object.number("time", point.seconds, {0, 1e6f});
     point.frames = static_cast<uint32_t>(object.integer("frames", static_cast<int32_t>(point.frames), {1, 10'000}));
     point.animates = object.flag("animate", point.animates);
+    point.turnsLight = object.flag("turn", point.turnsLight);
+}
+
+void readBake(const JsonObject& object, SweepPoint& point)
+{
+    object.allowOnly({"name", "scene", "reference", "settings", "grid"}, {"truth"});
+    point.truth = object.choice("truth", std::optional(point.truth), kTruths);
+}
+
+SweepPoint readPoint(const JsonObject& object, Measure measure)
+{
+    SweepPoint point;
+    if (measure == Measure::Bakes)
+        readBake(object, point);
+    else
+        readFrames(object, point);
+    point.scene = object.text("scene", "");
+    if (point.scene.empty())
+        object.refuse("", "needs \"scene\"");
+    point.name = object.text("name", point.scene);
     point.referenceSamples = static_cast<uint32_t>(object.integer("reference", 0, {0, 1'000'000}));
     point.settings = object.object("settings").pairs();
     for (const auto& [key, value] : point.settings)
         checkSetting(object, "settings", key, value);
     return point;
+}
+
+void checkBakeKnobs(const Sweep& sweep, const JsonObject& object)
+{
+    for (const SweepPoint& point : sweep.points)
+        for (const auto& [key, value] : point.settings)
+            if (!key.starts_with(kBakeKnobs))
+                object.refuse("points", fmt::format("{} does not concern bakes", key));
 }
 
 void checkNames(const Sweep& sweep, const JsonObject& object)
@@ -113,20 +139,23 @@ Sweep loadSweep(const Path& file)
 {
     const json document = scene::parseJson(file);
     const JsonObject object(document, file, "");
-    object.allowOnly({"name", "repeats", "warmup", "grid", "points"});
+    object.allowOnly({"name", "measure", "repeats", "warmup", "grid", "points"});
     Sweep sweep;
     sweep.name = object.text("name", file.stem().string());
+    sweep.measure = object.choice("measure", std::optional(sweep.measure), kMeasures);
     sweep.repeats = static_cast<uint32_t>(object.integer("repeats", static_cast<int32_t>(sweep.repeats), {1, 1000}));
     sweep.warmUp = static_cast<uint32_t>(object.integer("warmup", static_cast<int32_t>(sweep.warmUp), {1, 1000}));
     const Grid common = object.has("grid") ? readGrid(document["grid"], object) : Grid{};
     const std::vector<JsonObject> points = object.objects("points");
     for (size_t i = 0; i < points.size(); ++i) {
         const Grid grid = points[i].has("grid") ? readGrid(document["points"][i]["grid"], points[i]) : common;
-        std::ranges::move(expand(readPoint(points[i]), grid, points[i]), std::back_inserter(sweep.points));
+        std::ranges::move(expand(readPoint(points[i], sweep.measure), grid, points[i]), std::back_inserter(sweep.points));
     }
     if (sweep.points.empty())
         object.refuse("points", "there is nothing to measure");
     checkNames(sweep, object);
+    if (sweep.measure == Measure::Bakes)
+        checkBakeKnobs(sweep, object);
     return sweep;
 }
 

@@ -11,6 +11,12 @@
 
 namespace antumbra::app {
 
+/// What a point is measured by.
+enum class Measure { Frames, Bakes };
+
+/// What baked light is held against: the light as its bands tell it, or the whole map.
+enum class BakeTruth { Bands, Map };
+
 /// One row of the results.
 struct SweepPoint
 {
@@ -20,21 +26,25 @@ struct SweepPoint
     float seconds = 0;             // of the clips
     uint32_t frames = 4;           // measured a round
     bool animates = true;          // every frame has a new pose, about `seconds`
-    uint32_t referenceSamples = 0; // that the error is measured against; 0: it is not
-    render::Settings settings;     // over the device's defaults and the scene's own
+    bool turnsLight = false;       // every frame has another light
+    uint32_t referenceSamples = 0; // that the error is measured against, of a bake: paths a point of the surface; 0: it is not
+    BakeTruth truth = BakeTruth::Bands;
+    render::Settings settings; // over the device's defaults and the scene's own
 };
 
 struct Sweep
 {
     std::string name;
+    Measure measure = Measure::Frames;
     uint32_t repeats = 5; // rounds, each over all points
     uint32_t warmUp = 3;  // frames a point that do not count
     std::vector<SweepPoint> points;
 };
 
-/// {"name", "repeats", "warmup", "grid", "points":[{"name", "scene", "size":[w,h], "time", "frames", "animate", "reference",
-/// "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a point stands for every combination of its grid, or of the sweep's where it has
-/// none of its own. Throws Error of one line for unknown keys, with the nearest known, wrong types and values out of range.
+/// {"name", "measure":"frames"|"bakes", "repeats", "warmup", "grid", "points":[{"name", "scene", "size":[w,h], "time", "frames", "animate",
+/// "turn", "reference", "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a point stands for every combination of its grid, or of the
+/// sweep's where it has none of its own. A point that is a bake has "truth":"bands"|"map" in place of all that frames have, and knobs of
+/// baking alone. Throws Error of one line for unknown keys, with the nearest known, wrong types and values out of range.
 Sweep loadSweep(const Path& file);
 
 } // namespace antumbra::app

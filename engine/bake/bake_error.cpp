@@ -1,7 +1,6 @@
 #include "bake/bake_error.h"
 
 #include "bake/look_up.h"
-#include "bake/path_tracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +56,13 @@ void ErrorAgainstTruth::add(const glm::dvec3& value, const glm::dvec3& truthA, c
     count_ += 3;
 }
 
+void ErrorAgainstTruth::add(const ErrorAgainstTruth& other)
+{
+    squares_ += other.squares_;
+    sum_ += other.sum_;
+    count_ += other.count_;
+}
+
 double ErrorAgainstTruth::mean() const { return sum_ / static_cast<double>(count_); }
 
 double ErrorAgainstTruth::rmse() const { return std::sqrt(std::max(squares_ / static_cast<double>(count_), 0.0)); }
@@ -80,14 +86,14 @@ std::vector<SurfacePoint> seenPoints(const RayScene& rays, uint32_t count, uint6
     return points;
 }
 
-ErrorAgainstTruth errorOf(const Bake& bake, const RayScene& rays, const ShFunction& radiance, std::span<const SurfacePoint> points,
-                          uint32_t paths)
+ErrorAgainstTruth errorOf(const Bake& bake, const RayScene& rays, const ShFunction& radiance, const Radiance& truth,
+                          std::span<const SurfacePoint> points, uint32_t paths)
 {
     ErrorAgainstTruth error;
     const StaticScene& scene = rays.surfaces();
     uint64_t seed = 0;
     for (const SurfacePoint& point : points) {
-        const auto traced = [&] { return tracedIrradiance(rays, radiance, bake.settings.bounces, point, paths, seed++); };
+        const auto traced = [&] { return tracedIrradiance(rays, truth, bake.settings.bounces, point, paths, seed++); };
         const glm::dvec3 truthA = traced(), truthB = traced();
         error.add(atlasIrradiance(bake, radiance, bakeUvAt(scene, point)), truthA, truthB);
     }

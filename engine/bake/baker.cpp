@@ -9,8 +9,6 @@ namespace antumbra::bake {
 
 namespace {
 
-constexpr uint32_t kPointsPerTexel = 4;
-
 Pass passOver(std::string stage, const BakeSettings& settings, Transfers& result, std::function<void(Range)> gather)
 {
     return {.stage = std::move(stage),

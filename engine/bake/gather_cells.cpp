@@ -28,7 +28,7 @@ public:
     {
         const mat3 frame = rotationOf(key);
         Sums sums{};
-        uint32_t backs = 0;
+        uint32_t backs = 0, packet = 0;
         for (const DirectionPacket& local : pattern_) {
             DirectionPacket directions;
             rotate(frame, local, directions);
@@ -38,14 +38,13 @@ public:
             Basis basis;
             evaluateShPolynomials<kBasisBands, float>(directions.x, directions.y, directions.z, basis.data());
             addOpen(basis, kAllLanes & ~met.hits, sums);
-            addReflected(basis, met, sums);
+            addReflected(basis, met, packet++, sums);
         }
         const auto count = static_cast<float>(rayCount());
         const bool isOpen = static_cast<float>(backs) <= kMostBackHits * count;
-        for (size_t entry = 0; entry < matrix.size(); ++entry) {
-            const vec3 reflected(sums.reflected[3 * entry], sums.reflected[3 * entry + 1], sums.reflected[3 * entry + 2]);
-            matrix[entry] = isOpen ? 4 * kPi / count * (sumOf(sums.open[entry]) + reflected) : vec3{0};
-        }
+        for (uint32_t j = 0; j < kLocalCoefficients; ++j)
+            for (uint32_t i = 0; i < kCoefficients; ++i)
+                matrix[j * kCoefficients + i] = isOpen ? 4 * kPi / count * (openAt(sums, j, i) + reflectedAt(sums, j, i)) : vec3{0};
         return isOpen;
     }
 
@@ -55,12 +54,23 @@ private:
     static constexpr uint32_t kBasisBands = std::max(kBands, 3u);
     using Basis = std::array<Lanes, kBasisBands * kBasisBands>;
 
-    /// Row by row of the matrix.
+    /// By rows of the matrix.
     struct Sums
     {
-        std::array<Lanes, size_t{kLocalCoefficients} * kCoefficients> open;
-        TransferVector<kLocalCoefficients * kCoefficients> reflected;
+        std::array<std::array<Lanes, kCoefficients>, kLocalCoefficients> open; // from the diagonal on: what is before it is the same
+        std::array<TransferVector<kCoefficients>, kLocalCoefficients> reflected;
     };
+
+    static float openAt(const Sums& sums, uint32_t j, uint32_t i)
+    {
+        return sumOf(i < j && j < kCoefficients ? sums.open[i][j] : sums.open[j][i]);
+    }
+
+    static vec3 reflectedAt(const Sums& sums, uint32_t j, uint32_t i)
+    {
+        const auto at = [&](uint32_t k) { return sums.reflected[j][k / 4][k % 4]; };
+        return {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
+    }
 
     static void addOpen(const Basis& basis, LaneMask open, Sums& sums)
     {
@@ -70,18 +80,30 @@ private:
         setWeights(open, weight);
         for (uint32_t j = 0; j < kLocalCoefficients; ++j) {
             const Lanes weighted = weight * basis[j];
-            for (uint32_t i = 0; i < kCoefficients; ++i)
-                sums.open[j * kCoefficients + i] += weighted * basis[i];
+            for (uint32_t i = j < kCoefficients ? j : 0; i < kCoefficients; ++i)
+                sums.open[j][i] += weighted * basis[i];
         }
     }
 
-    void addReflected(const Basis& basis, const HitPacket& met, Sums& sums) const
+    /// Column by column, so that all rows of one stay in registers over the packet.
+    void addReflected(const Basis& basis, const HitPacket& met, uint32_t packet, Sums& sums) const
     {
-        using Radiance = TransferVector<kCoefficients>;
-        reflected_.forEach(met, [&](uint32_t lane, const Radiance& radiance) {
+        Reflections<kCoefficients> reflections;
+        reflected_.collect(met, packet, reflections);
+        std::array<std::array<Four, kLocalCoefficients>, kLanes> weights;
+        for (uint32_t hit = 0; hit < reflections.count; ++hit)
             for (uint32_t j = 0; j < kLocalCoefficients; ++j)
-                addScaled<std::tuple_size_v<Radiance>>(basis[j][lane], radiance.data(), &sums.reflected[j * radiance.size()]);
-        });
+                weights[hit][j] = Four{} + basis[j][reflections.lanes[hit]];
+        for (size_t k = 0; k < sums.reflected[0].size(); ++k) {
+            std::array<Four, kLocalCoefficients> column;
+            for (uint32_t j = 0; j < kLocalCoefficients; ++j)
+                column[j] = sums.reflected[j][k];
+            for (uint32_t hit = 0; hit < reflections.count; ++hit)
+                for (uint32_t j = 0; j < kLocalCoefficients; ++j)
+                    column[j] += weights[hit][j] * reflections.radiances[hit][k];
+            for (uint32_t j = 0; j < kLocalCoefficients; ++j)
+                sums.reflected[j][k] = column[j];
+        }
     }
 
     const RayScene& rays_;

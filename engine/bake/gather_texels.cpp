@@ -2,6 +2,7 @@
 // 4.2), by directions as dense as the cosine: pi times their mean.
 #include "bake/reflected_light.h"
 #include "bake/sh_polynomials.h"
+#include "bake/texel_rays.h"
 
 #include <bit>
 
@@ -16,7 +17,7 @@ class DirectLight
 public:
     using Sum = std::array<Lanes, kBands * kBands>;
 
-    void add(const DirectionPacket& directions, LaneMask above, const HitPacket& met, Sum& sum) const
+    void add(const DirectionPacket& directions, LaneMask above, const HitPacket& met, uint32_t, Sum& sum) const
     {
         const LaneMask open = above & ~met.hits;
         if (open == 0)
@@ -45,61 +46,51 @@ public:
 
     explicit BouncedLight(ReflectedLight<kBands * kBands> reflected) : reflected_(reflected) {}
 
-    void add(const DirectionPacket&, LaneMask, const HitPacket& met, Sum& sum) const
+    void add(const DirectionPacket&, LaneMask, const HitPacket& met, uint32_t packet, Sum& sum) const
     {
-        reflected_.forEach(met,
-                           [&](uint32_t, const Sum& radiance) { addScaled<std::tuple_size_v<Sum>>(1.0f, radiance.data(), sum.data()); });
+        Reflections<kBands * kBands> reflections;
+        reflected_.collect(met, packet, reflections);
+        for (uint32_t i = 0; i < reflections.count; ++i)
+            for (size_t k = 0; k < sum.size(); ++k)
+                sum[k] += reflections.radiances[i][k];
     }
 
     static void addTo(std::span<vec3> total, const Sum& sum)
     {
-        for (size_t k = 0; k < sum.size(); ++k)
-            total[k / 3][static_cast<int>(k % 3)] += sum[k];
+        for (size_t k = 0; k < 3 * total.size(); ++k)
+            total[k / 3][static_cast<int>(k % 3)] += sum[k / 4][k % 4];
     }
 
 private:
     ReflectedLight<kBands * kBands> reflected_;
 };
 
-/// The lanes that leave on the outer side of the surface.
-LaneMask lanesAbove(const DirectionPacket& directions, vec3 normal)
-{
-    const Lanes height = directions.x * normal.x + directions.y * normal.y + directions.z * normal.z;
-    LaneMask above = 0;
-    for (uint32_t lane = 0; lane < kLanes; ++lane)
-        if (height[lane] > 0)
-            above |= 1u << lane;
-    return above;
-}
-
-/// Gathers texels with directions that it keeps from one to the next.
+/// Gathers texels, one after the other.
 template <class Light>
 class TexelGatherer
 {
 public:
     TexelGatherer(const RayScene& rays, const TexelMap& map, uint32_t raysPerTexel, const Light& light)
-        : rays_(rays), map_(map), light_(light), packetsPerTexel_((std::max(raysPerTexel, 1u) + kLanes - 1) / kLanes)
+        : rays_(rays), light_(light), texelRays_(rays.surfaces(), map, raysPerTexel)
     {
     }
 
     /// Replaces `transfer`; false, and zero, where all points lie inside something solid.
     bool gather(uint32_t texel, std::span<vec3> transfer)
     {
-        const std::span<const SurfacePoint> points = map_.pointsOf(texel);
-        const auto used = std::min(static_cast<uint32_t>(points.size()), packetsPerTexel_);
-        const std::vector<DirectionPacket>& pattern = patternFor(used);
-        const uint64_t key = scrambled(uint64_t{map_.places[texel].y} << 32 | map_.places[texel].x);
+        const uint32_t points = texelRays_.pointCount(texel), raysPerPoint = texelRays_.raysPerPoint(points);
         std::ranges::fill(transfer, vec3{0});
         uint32_t outside = 0;
-        for (uint32_t i = 0; i < used; ++i) {
+        packet_ = 0;
+        for (uint32_t point = 0; point < points; ++point) {
             typename Light::Sum sum{};
-            if (trace(points[i * points.size() / used], 2 * kPi * unitFloat(scrambled(key + i)), pattern, sum)) {
+            if (trace(texel, point, kMostBackHits * static_cast<float>(raysPerPoint), sum)) {
                 Light::addTo(transfer, sum);
                 ++outside;
             }
         }
         for (vec3& value : transfer)
-            value *= outside > 0 ? kPi / static_cast<float>(outside * pattern.size() * kLanes) : 0.0f;
+            value *= outside > 0 ? kPi / static_cast<float>(outside * raysPerPoint) : 0.0f;
         return outside > 0;
     }
 
@@ -107,39 +98,23 @@ public:
 
 private:
     /// False where the point lies inside something solid.
-    bool trace(const SurfacePoint& point, float radians, std::span<const DirectionPacket> pattern, typename Light::Sum& sum)
+    bool trace(uint32_t texel, uint32_t point, float mostBacks, typename Light::Sum& sum)
     {
-        const StaticScene& surfaces = rays_.surfaces();
-        const vec3 origin = rayOrigin(surfaces, point), normal = geometricNormal(surfaces, point.triangle);
-        const mat3 frame = frameAbout(shadingNormalAt(surfaces, point), radians);
         uint32_t backs = 0;
-        for (const DirectionPacket& local : pattern) {
-            DirectionPacket directions;
-            rotate(frame, local, directions);
-            const LaneMask above = lanesAbove(directions, normal);
+        texelRays_.forEach(texel, point, [&](vec3 origin, const DirectionPacket& directions, LaneMask above) {
             HitPacket met;
             rays_.intersect(origin, directions, above, met);
-            light_.add(directions, above, met, sum);
+            light_.add(directions, above, met, packet_++, sum);
             backs += static_cast<uint32_t>(std::popcount(met.backs));
             counts_.rays += static_cast<uint32_t>(std::popcount(above));
-        }
-        return static_cast<float>(backs) <= kMostBackHits * static_cast<float>(pattern.size() * kLanes);
-    }
-
-    const std::vector<DirectionPacket>& patternFor(uint32_t points)
-    {
-        if (patterns_.size() <= points)
-            patterns_.resize(points + 1);
-        if (patterns_[points].empty())
-            patterns_[points] = cosineDirections((packetsPerTexel_ + points - 1) / points);
-        return patterns_[points];
+        });
+        return static_cast<float>(backs) <= mostBacks;
     }
 
     const RayScene& rays_;
-    const TexelMap& map_;
     const Light& light_;
-    uint32_t packetsPerTexel_;
-    std::vector<std::vector<DirectionPacket>> patterns_; // by number of points
+    TexelRays texelRays_;
+    uint32_t packet_ = 0; // of the texel
     RayCounts counts_;
 };
 

@@ -10,6 +10,9 @@ inline constexpr uint32_t kLanes = 16;
 
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
+/// Four numbers of one vector of coefficients.
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
+
 /// Bit i stands for lane i.
 using LaneMask = uint32_t;
 

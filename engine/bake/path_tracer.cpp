@@ -37,7 +37,7 @@ vec3 cosineDirection(vec3 normal, double share, double turn)
 class PathTracer
 {
 public:
-    PathTracer(const RayScene& rays, const ShFunction& radiance, uint32_t bounces, uint64_t seed)
+    PathTracer(const RayScene& rays, const Radiance& radiance, uint32_t bounces, uint64_t seed)
         : rays_(rays), radiance_(radiance), bounces_(bounces), key_(scrambled(seed))
     {
     }
@@ -66,7 +66,7 @@ private:
             if (glm::dot(direction, from.geometricNormal) <= 0)
                 return dvec3{0};
             if (!rays_.intersect(from.origin, direction, hit))
-                return throughput * evaluate(radiance_, dvec3(direction));
+                return throughput * radiance_(dvec3(direction));
             if (hit.isBack || bounce == bounces_)
                 return dvec3{0};
             throughput *= dvec3(albedoAt(rays_.surfaces(), hit.point));
@@ -80,14 +80,14 @@ private:
     double random() { return static_cast<double>(scrambled(key_++) >> 11) * 0x1p-53; }
 
     const RayScene& rays_;
-    const ShFunction& radiance_;
+    const Radiance& radiance_;
     uint32_t bounces_;
     uint64_t key_;
 };
 
 } // namespace
 
-dvec3 tracedIrradiance(const RayScene& rays, const ShFunction& radiance, uint32_t bounces, vec3 position, vec3 normal, uint32_t paths,
+dvec3 tracedIrradiance(const RayScene& rays, const Radiance& radiance, uint32_t bounces, vec3 position, vec3 normal, uint32_t paths,
                        uint64_t seed)
 {
     const Aabb bounds = rays.surfaces().bounds();
@@ -96,7 +96,7 @@ dvec3 tracedIrradiance(const RayScene& rays, const ShFunction& radiance, uint32_
     return PathTracer(rays, radiance, bounces, seed).irradiance({origin, normal, normal}, paths);
 }
 
-dvec3 tracedIrradiance(const RayScene& rays, const ShFunction& radiance, uint32_t bounces, const SurfacePoint& point, uint32_t paths,
+dvec3 tracedIrradiance(const RayScene& rays, const Radiance& radiance, uint32_t bounces, const SurfacePoint& point, uint32_t paths,
                        uint64_t seed)
 {
     return PathTracer(rays, radiance, bounces, seed).irradiance(startAt(rays.surfaces(), point), paths);

@@ -5,6 +5,7 @@
 #include "bake/sh_polynomials.h"
 #include "base/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,6 +19,8 @@ constexpr double kPiExact = std::numbers::pi;
 
 void checkBands(uint32_t bands) { check(bands >= kFewestBands && bands <= kMostBands, "2 to 5 bands of spherical harmonics"); }
 
+uint32_t indexOf(double share, uint32_t count) { return std::min(static_cast<uint32_t>(share * count), count - 1); }
+
 void accumulate(ShFunction& function, const ShBasis& basis, const dvec3& weighted)
 {
     for (uint32_t i = 0; i < function.coefficientCount(); ++i)
@@ -25,6 +28,15 @@ void accumulate(ShFunction& function, const ShBasis& basis, const dvec3& weighte
 }
 
 } // namespace
+
+dvec3 ShFunction::operator()(const dvec3& direction) const
+{
+    const ShBasis basis = shBasis(direction);
+    dvec3 sum{0};
+    for (uint32_t i = 0; i < coefficientCount(); ++i)
+        sum += basis[i] * coefficients[i];
+    return sum;
+}
 
 ShBasis shBasis(const dvec3& direction)
 {
@@ -38,6 +50,14 @@ dvec3 equirectangularDirection(double u, double v)
     const double azimuth = 2 * kPiExact * (u - 0.5);
     const double polar = kPiExact * v;
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
+}
+
+dvec3 texelTowards(const scene::ImageF& map, const dvec3& direction)
+{
+    const double u = 0.5 + std::atan2(direction.x, -direction.z) / (2 * kPiExact);
+    const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPiExact;
+    const float* texel = &map.values[(size_t{indexOf(v, map.height)} * map.width + indexOf(u, map.width)) * map.channels];
+    return {texel[0], texel[1], texel[2]};
 }
 
 ShFunction project(const scene::ImageF& map, uint32_t bands)
@@ -81,9 +101,18 @@ ShFunction rotatedAboutY(const ShFunction& function, double radians)
             const double azimuth = 2 * kPiExact * step / kSteps;
             const dvec3 direction{radius * std::sin(azimuth), node.y, radius * std::cos(azimuth)};
             const dvec3 before{radius * std::sin(azimuth - radians), node.y, radius * std::cos(azimuth - radians)};
-            accumulate(result, shBasis(direction), node.weight * 2 * kPiExact / kSteps * evaluate(function, before));
+            accumulate(result, shBasis(direction), node.weight * 2 * kPiExact / kSteps * function(before));
         }
     }
+    return result;
+}
+
+ShFunction windowed(const ShFunction& function, double strength)
+{
+    ShFunction result = function;
+    for (uint32_t band = 0; band < function.bands; ++band)
+        for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i)
+            result.coefficients[i] /= 1 + strength * std::pow(band * (band + 1.0), 2);
     return result;
 }
 
@@ -97,15 +126,6 @@ ShFunction irradianceOf(const ShFunction& radiance)
         for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i)
             result.coefficients[i] = kCosineLobe[band] * radiance.coefficients[i];
     return result;
-}
-
-dvec3 evaluate(const ShFunction& function, const dvec3& direction)
-{
-    const ShBasis basis = shBasis(direction);
-    dvec3 sum{0};
-    for (uint32_t i = 0; i < function.coefficientCount(); ++i)
-        sum += basis[i] * function.coefficients[i];
-    return sum;
 }
 
 } // namespace antumbra::bake

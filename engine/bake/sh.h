@@ -24,6 +24,8 @@ struct ShFunction
     std::array<glm::dvec3, kMostCoefficients> coefficients{};
 
     [[nodiscard]] uint32_t coefficientCount() const { return bands * bands; }
+    /// The value towards a unit vector; may be negative where few bands ring.
+    glm::dvec3 operator()(const glm::dvec3& direction) const;
 };
 
 /// Y_i(direction) of all five bands; `direction` is a unit vector.
@@ -33,6 +35,9 @@ ShBasis shBasis(const glm::dvec3& direction);
 /// right half +X, the top row +Y.
 glm::dvec3 equirectangularDirection(double u, double v);
 
+/// The texel of an equirectangular map towards a unit vector: what project() takes its light to be there.
+glm::dvec3 texelTowards(const scene::ImageF& map, const glm::dvec3& direction);
+
 /// Projects a map of at least three channels (the first three are RGB), every texel weighted by its exact solid angle.
 /// The result has the map's unit: W/(m^2 sr) for radiance.
 ShFunction project(const scene::ImageF& map, uint32_t bands);
@@ -40,10 +45,10 @@ ShFunction project(const scene::ImageF& map, uint32_t bands);
 /// The function turned with the world: counter-clockwise about +Y seen from above, so rotated(w) = function(R^-1 w).
 ShFunction rotatedAboutY(const ShFunction& function, double radians);
 
+/// Against ringing: band l weighs 1 / (1 + strength l^2 (l + 1)^2) (Sloan, Stupid Spherical Harmonics Tricks, 2008); strength >= 0.
+ShFunction windowed(const ShFunction& function, double strength);
+
 /// Radiance in, irradiance out: E(n) = integral of L(w) max(n.w, 0) dw, W/m^2, exact for the bands given.
 ShFunction irradianceOf(const ShFunction& radiance);
-
-/// The value towards the unit vector `direction`; may be negative where few bands ring.
-glm::dvec3 evaluate(const ShFunction& function, const glm::dvec3& direction);
 
 } // namespace antumbra::bake

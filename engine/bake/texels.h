@@ -23,6 +23,9 @@ struct TexelMap
     }
 };
 
+/// From how many places of a texel a bake's rays leave, where it is fully covered.
+inline constexpr uint32_t kPointsPerTexel = 4;
+
 /// At most `mostPoints` points a texel, on a fixed pattern. Does not depend on the order of triangles but where they overlap.
 TexelMap mapTexels(const StaticScene& scene, uint32_t mostPoints);
 

@@ -30,16 +30,6 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
     block.rayY = camera.rotation * vec3{0, -2.0f * top / height, 0};
 }
 
-/// Against ringing: band l weighs 1 / (1 + strength l^2 (l + 1)^2) (Sloan 2008).
-bake::ShFunction windowed(const bake::ShFunction& function, double strength)
-{
-    bake::ShFunction result = function;
-    for (uint32_t band = 0; band < function.bands; ++band)
-        for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i)
-            result.coefficients[i] /= 1 + strength * std::pow(band * (band + 1.0), 2);
-    return result;
-}
-
 } // namespace
 
 mat4 clipFromWorld(const CameraView& camera, uvec2 extent)
@@ -69,8 +59,8 @@ void FrameBlocks::writeEnvironment(const FrameView& view, const GpuScene& scene)
     const EnvironmentView& environment = view.environment;
     shader::FrameBlock& block = newest_;
     bake::ShFunction radiance = bake::rotatedAboutY(projected(environment.image), environment.rotationRadians);
-    if (view.bake != nullptr)
-        radiance = windowed(radiance, view.knobs.prt.window);
+    if (view.shownBake() != nullptr)
+        radiance = bake::windowed(radiance, view.knobs.prt.window);
     const bake::ShFunction irradiance = bake::irradianceOf(radiance);
     for (uint32_t i = 0; i < radiance.coefficientCount(); ++i) {
         block.radianceSh[i] = vec3(radiance.coefficients[i]) * environment.intensity;

@@ -58,6 +58,8 @@ struct FrameView
     float exposure = 1;
     uint32_t splitColumn = 0; // columns left of it show the final picture, the rest knobs.view
 
+    /// What gives the first terms: null where nothing is baked or the knob turns it off.
+    [[nodiscard]] const bake::Bake* shownBake() const { return knobs.prt.isShown ? bake : nullptr; }
     /// Keeps the memory.
     void clear()
     {

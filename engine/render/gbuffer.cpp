@@ -38,7 +38,7 @@ Faces facesOf(const DeviceMaterial& material, const mat4& world)
 
 GBufferSystem::FirstTerm GBufferSystem::firstTermOf(const FrameView& view, uint32_t object)
 {
-    if (view.bake == nullptr)
+    if (view.shownBake() == nullptr)
         return FirstTerm::Environment;
     return object < view.statics.size() && view.statics[object].isBaked ? FirstTerm::Atlas : FirstTerm::Volume;
 }

@@ -210,7 +210,7 @@ void GpuScene::prepare(const FrameView& view)
     for (const StaticDraw& draw : view.statics) {
         makeModel(draw.model);
         makeRest(draw.model);
-        if (view.bake != nullptr && draw.isBaked)
+        if (view.shownBake() != nullptr && draw.isBaked)
             makeBakeUvs(draw.model);
     }
     for (const CharacterDraw& draw : view.characters) {

@@ -33,6 +33,7 @@ constexpr KnobChoice kCullings[] = {
     choice("bones", Culling::Bones),
 };
 constexpr KnobChoice kScales[] = {choice("1", Scale::Full), choice("1/2", Scale::Half), choice("1/4", Scale::Quarter)};
+constexpr KnobChoice kSwitch[] = {{"on", 1}, {"off", 0}};
 constexpr KnobChoice kFilters[] = {{"0", 0}, {"3", 3}, {"5", 5}, {"7", 7}, {"9", 9}};
 constexpr KnobChoice kViews[] = {
     choice("final", ViewMode::Final),           choice("unshadowed", ViewMode::Unshadowed), choice("occluded", ViewMode::Occluded),
@@ -90,6 +91,7 @@ constexpr KnobDescription bakeKnob()
         .range = {setting.least, setting.greatest, setting.isWhole ? 1.0 : 0.0},
         .read = [](const Knobs& knobs) { return setting.read(knobs.prt.settings); },
         .write = [](Knobs& knobs, double value) { setting.write(knobs.prt.settings, value); },
+        .isLive = false,
     };
 }
 
@@ -114,6 +116,8 @@ constexpr KnobDescription kTable[] = {
     bakeKnob<4>(),
     bakeKnob<5>(),
     bakeKnob<6>(),
+    knob<kPrt, &PrtKnobs::isShown>("prt.bake", kSwitch,
+                                   "baked light where there is some; off: the environment's, as if nothing stood there"),
     knob<kPrt, &PrtKnobs::window>("prt.window", {0, 1, 0}, "against ringing of baked light: how much higher bands are damped; 0 is off"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
     knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),
@@ -219,6 +223,14 @@ std::string get(const Knobs& knobs, std::string_view key)
     const auto named = std::ranges::find(knob.choices, number, &KnobChoice::value);
     // Fields are float or whole numbers that a float holds exactly; a float's shortest form reads back to the same value.
     return named != knob.choices.end() ? std::string(named->name) : fmt::format("{}", static_cast<float>(number));
+}
+
+Settings valuesOf(const Knobs& knobs)
+{
+    Settings values;
+    for (const KnobDescription& knob : kTable)
+        values.emplace_back(knob.key, get(knobs, knob.key));
+    return values;
 }
 
 Knobs resolveKnobs(DeviceClass device, const Settings& sceneFile, const Settings& commandLine)

@@ -34,6 +34,7 @@ struct OcclusionKnobs
 struct PrtKnobs
 {
     bake::BakeSettings settings; // of a bake that is made; one that is there has its own
+    bool isShown = true;
     float window = 0;
 };
 
@@ -81,6 +82,7 @@ struct KnobDescription
     KnobRange range;
     double (*read)(const Knobs&);
     void (*write)(Knobs&, double);
+    bool isLive = true; // else a scene asks for it when it is loaded
 };
 
 /// What traces where `wanted` is asked for: ray queries only where the device has them, compute-bvh everywhere. Never Auto.
@@ -103,6 +105,9 @@ std::string get(const Knobs& knobs, std::string_view key);
 
 /// Keys and values in the order they were given; a later one wins.
 using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Every knob, as get() writes it.
+Settings valuesOf(const Knobs& knobs);
 
 /// The defaults of the device, then the scene file's settings, then the command line's. Throws as set() does.
 Knobs resolveKnobs(DeviceClass device, const Settings& sceneFile, const Settings& commandLine);

@@ -149,10 +149,10 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     scene_.prepare(view);
     nearMetres_ = view.camera.nearMetres;
     graph_.reset();
-    const uint32_t frame = blocks_.write(view, scene_, prt_.prepare(view.bake), extent());
+    const uint32_t frame = blocks_.write(view, scene_, prt_.prepare(view.shownBake()), extent());
     graph::BufferRef counters = counters_.declareClear(graph_);
 
-    const Baked baked = prt_.declare(graph_, frame, blocks_.newest());
+    const Baked baked = prt_.declare(graph_, view, frame, blocks_.newest());
     const Posed posed = posing_.declare(graph_, view, scene_);
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, baked, posed, extent(), captures_ != 0);
     const Traced traced = occlusion_.declare(graph_, view, frame, scene_, baked, g, posed, counters);

@@ -78,7 +78,7 @@ double openTexel(uint32_t i)
 {
     bake::ShFunction one{.bands = bake::kMostBands};
     one.coefficients[i] = glm::dvec3(1);
-    return bake::evaluate(bake::irradianceOf(one), {0, 1, 0}).x;
+    return bake::irradianceOf(one)({0, 1, 0}).x;
 }
 
 double openCell(uint32_t j, uint32_t i) { return i == j ? 1 : 0; }
@@ -102,11 +102,9 @@ bake::ShFunction environmentLight(Shown& shown, uint32_t bands)
     const render::EnvironmentView& environment = shown.view().environment;
     bake::ShFunction light =
         bake::rotatedAboutY(bake::project(shown.assets().environments[environment.image], bands), environment.rotationRadians);
-    const double window = shown.view().knobs.prt.window;
-    for (uint32_t band = 0; band < bands; ++band)
-        for (uint32_t i = band * band; i < (band + 1) * (band + 1); ++i)
-            light.coefficients[i] *= environment.intensity / (1 + window * band * band * (band + 1) * (band + 1));
-    return light;
+    for (glm::dvec3& coefficient : light.coefficients)
+        coefficient *= environment.intensity;
+    return bake::windowed(light, shown.view().knobs.prt.window);
 }
 
 } // namespace antumbra::truth

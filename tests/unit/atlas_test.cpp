@@ -220,6 +220,31 @@ TEST(Atlas, OfNothingIsAnEmptyPage)
     EXPECT_EQ(layOutOne(cube, {}, glm::scale(mat4(1), vec3(1, 0, 1))).meshes[0].triangleMaterials.size(), 4);
 }
 
+TEST(Atlas, GivesNarrowChartsMoreTexels)
+{
+    const Model plane = modelOf(scene::makePlane());
+    const auto sidesOf = [&](vec2 metres, float texelsPerMetre) {
+        const Atlas atlas = layOutOne(plane, {.texelsPerMetre = texelsPerMetre}, glm::scale(mat4(1), vec3(metres.x, 1, metres.y)));
+        vec2 lowest(1), highest(0);
+        for (const vec2 uv : atlas.meshes[0].bakeUvs) {
+            lowest = glm::min(lowest, uv);
+            highest = glm::max(highest, uv);
+        }
+        const vec2 sides = (highest - lowest) * vec2(atlas.extent);
+        return vec2(std::max(sides.x, sides.y), std::min(sides.x, sides.y));
+    };
+    const auto expectSides = [&](vec2 metres, float texelsPerMetre, vec2 expected) {
+        const vec2 sides = sidesOf(metres, texelsPerMetre);
+        EXPECT_NEAR(sides.x, expected.x, 1e-3) << metres.x << " x " << metres.y;
+        EXPECT_NEAR(sides.y, expected.y, 1e-3) << metres.x << " x " << metres.y;
+    };
+    expectSides({10, 2}, 8, {80, 16}); // as asked
+    expectSides({10, 0.5f}, 8, {80, 4});
+    expectSides({10, 0.25f}, 8, {80, 4});    // two would be
+    expectSides({10, 0.05f}, 8, {80, 1.6f}); // four times as many, and no more
+    expectSides({0.1f, 0.1f}, 8, {3.2f, 3.2f});
+}
+
 TEST(Atlas, GivesTheSmallestChartsATexel)
 {
     const Model cube = modelOf(scene::makeCube());
@@ -229,9 +254,10 @@ TEST(Atlas, GivesTheSmallestChartsATexel)
     const Atlas atlas = layOut(objects, {});
     expectSound(atlas, objects.size(), {});
     const std::vector<uint32_t> page = paintCharts(atlas);
-    EXPECT_EQ(std::ranges::count_if(page, [](uint32_t chart) { return chart != kNoChart; }), 60 * 6);
+    const int texelsOfThree = 4 * 4 + 1 + 1; // 3.2 x 3.2, and hardly any
+    EXPECT_EQ(std::ranges::count_if(page, [](uint32_t chart) { return chart != kNoChart; }), 20 * 6 * texelsOfThree);
     for (size_t i = 0; i < objects.size(); ++i)
-        EXPECT_GT(densities(atlas, atlas.meshes[i], objects[i].world).front(), 0) << "coordinates coincide";
+        EXPECT_GT(densities(atlas, atlas.meshes[i], objects[i].world).narrow.front(), 0) << "coordinates coincide";
 }
 
 TEST(Atlas, MeasuresTexelsInTheWorld)
@@ -298,7 +324,8 @@ TEST(Atlas, OfTheAtriumIsSoundFullAndEven)
     EXPECT_GT(expectSound(atlas, objects.size(), {}), 0.6);
     EXPECT_LT(chartCount(atlas.meshes[0]), 2500);
     EXPECT_EQ(atlas.texelsPerMetre, 8);
-    const std::vector<float> shares = densities(atlas, atlas.meshes[0]);
+    const std::vector<float> shares = densities(atlas, atlas.meshes[0]).wide;
+    ASSERT_GT(shares.size(), 1000u);
     EXPECT_GT(shares[shares.size() / 100], 0.8f);
     EXPECT_LT(shares[shares.size() - shares.size() / 100], 1.25f);
     Model other = model;

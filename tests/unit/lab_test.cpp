@@ -75,6 +75,21 @@ TEST(Sweep, AGridOfItsOwnReplacesTheCommonOne)
     EXPECT_THAT(namesOf(sweep), ElementsAre("hall"));
 }
 
+TEST(Sweep, ABakeIsReadWithWhatConcernsIt)
+{
+    const Sweep sweep = sweepOf(R"({"measure": "bakes", "points": [{"scene": "atrium", "reference": 256, "truth": "map",
+        "settings": {"prt.bounces": 1}, "grid": {"prt.bands": [2, 5]}}]})");
+    EXPECT_EQ(sweep.measure, Measure::Bakes);
+    EXPECT_THAT(namesOf(sweep), ElementsAre("atrium bands=2", "atrium bands=5"));
+    EXPECT_EQ(sweep.points[0].truth, BakeTruth::Map);
+    EXPECT_EQ(sweep.points[1].settings, (render::Settings{{"prt.bounces", "1"}, {"prt.bands", "5"}}));
+    EXPECT_THAT(refusal(R"({"measure": "bakes", "points": [{"scene": "atrium", "size": [320, 180]}]})"), HasSubstr("\"size\""));
+    EXPECT_THAT(refusal(R"({"measure": "bakes", "points": [{"scene": "atrium", "settings": {"occlusion.samples": 32}}]})"),
+                HasSubstr("does not concern bakes"));
+    EXPECT_THAT(refusal(R"({"measure": "bake", "points": []})"), HasSubstr("bakes"));
+    EXPECT_THAT(refusal(R"({"points": [{"scene": "atrium", "truth": "map"}]})"), HasSubstr("\"truth\""));
+}
+
 TEST(Sweep, UnknownKeysAreRefusedWithTheNearest)
 {
     EXPECT_THAT(refusal(R"({"repeat": 1, "points": []})"), AllOf(HasSubstr("\"repeat\""), HasSubstr("\"repeats\"")));

@@ -48,7 +48,7 @@ TEST(PathTracer, LightOfManyBandsIsConvolvedWithTheCosine)
     const ShFunction light = lightOf(5);
     const dvec3 normal = glm::normalize(dvec3(0.1, 1, -0.1));
     const dvec3 irradiance = tracedIrradiance(RayScene(scene), light, 0, {0, 10, 0}, vec3(normal), 4096, 1);
-    const dvec3 expected = evaluate(irradianceOf(light), normal);
+    const dvec3 expected = irradianceOf(light)(normal);
     EXPECT_LE(glm::length(irradiance - expected), 0.01 * glm::length(expected)) << "negative radiance counts too";
 }
 

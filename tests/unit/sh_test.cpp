@@ -128,7 +128,7 @@ TEST(Sh, ConstantMapGivesPiTimesItsRadiance)
     for (uint32_t bands = kFewestBands; bands <= kMostBands; ++bands) {
         const ShFunction irradiance = irradianceOf(project(map, bands));
         for (const dvec3& n : someDirections())
-            EXPECT_LT(glm::length(evaluate(irradiance, n) - kPiExact * dvec3{0.5, 1, 2}), 0.01);
+            EXPECT_LT(glm::length(irradiance(n) - kPiExact * dvec3{0.5, 1, 2}), 0.01);
     }
 }
 
@@ -136,7 +136,7 @@ TEST(Sh, ProjectionFindsTheCoefficientsItWasPaintedWith)
 {
     for (uint32_t bands = kFewestBands; bands <= kMostBands; ++bands) {
         const ShFunction function = anyFunction(bands);
-        const ImageF map = paint(256, 128, [&](const dvec3& d) { return evaluate(function, d); });
+        const ImageF map = paint(256, 128, [&](const dvec3& d) { return function(d); });
         EXPECT_LT(greatestDifference(project(map, bands), function), 2e-3) << bands;
     }
 }
@@ -146,9 +146,9 @@ TEST(Sh, IrradianceIsTheCosineIntegral)
     const ShFunction radiance = anyFunction(5);
     const ShFunction irradiance = irradianceOf(radiance);
     for (const dvec3& n : {dvec3{0, 1, 0}, glm::normalize(dvec3{1, -2, 3}), dvec3{0, 0, -1}}) {
-        const ImageF weighted = paint(512, 256, [&](const dvec3& d) { return std::max(glm::dot(n, d), 0.0) * evaluate(radiance, d); });
+        const ImageF weighted = paint(512, 256, [&](const dvec3& d) { return std::max(glm::dot(n, d), 0.0) * radiance(d); });
         const dvec3 integral = project(weighted, 2).coefficients[0] * std::sqrt(4 * kPiExact);
-        EXPECT_LT(glm::length(integral - evaluate(irradiance, n)), 2e-3);
+        EXPECT_LT(glm::length(integral - irradiance(n)), 2e-3);
     }
 }
 
@@ -159,7 +159,7 @@ TEST(Sh, RotationTurnsTheFunctionCounterClockwise)
             const ShFunction function = anyFunction(bands);
             const ShFunction rotated = rotatedAboutY(function, radians);
             for (const dvec3& d : someDirections())
-                EXPECT_LT(glm::length(evaluate(rotated, turnedAboutY(d, radians)) - evaluate(function, d)), 1e-12);
+                EXPECT_LT(glm::length(rotated(turnedAboutY(d, radians)) - function(d)), 1e-12);
         }
     ShFunction fromX{.bands = 2};
     fromX.coefficients[3] = dvec3{1};
@@ -211,7 +211,7 @@ TEST(Sh, IrradianceAgreesWithThePublishedConstants)
         const ShFunction light = functionOf(coefficients);
         const ShFunction irradiance = irradianceOf(light);
         for (const dvec3& n : someDirections())
-            EXPECT_LT(glm::length(evaluate(irradiance, n) - publishedIrradiance(light, n)), 1e-5 * bandNorm(light, 0, 1) + 1e-5) << name;
+            EXPECT_LT(glm::length(irradiance(n) - publishedIrradiance(light, n)), 1e-5 * bandNorm(light, 0, 1) + 1e-5) << name;
     }
 }
 
@@ -219,7 +219,7 @@ TEST(Sh, IrradianceAgreesWithThePublishedConstants)
 ShFunction inOurAxes(const ShFunction& theirs)
 {
     ShFunction ours{.bands = 3};
-    const ImageF map = paint(512, 256, [&](const dvec3& d) { return evaluate(theirs, {d.z, -d.x, d.y}); });
+    const ImageF map = paint(512, 256, [&](const dvec3& d) { return theirs({d.z, -d.x, d.y}); });
     return project(map, ours.bands);
 }
 
@@ -235,6 +235,34 @@ TEST(Sh, AgreesWithIndependentProjectionsOfRealMaps)
         const ShFunction projected = project(scene::loadRadiance(kEnvironments / name), 3);
         EXPECT_LT(greatestDifference(projected, expected), 1e-3 * bandNorm(expected, 0, 1)) << name;
     }
+}
+
+TEST(Sh, AWindowDampsHigherBandsMore)
+{
+    const ShFunction function = anyFunction(4), damped = windowed(function, 0.1);
+    EXPECT_EQ(greatestDifference(windowed(function, 0), function), 0);
+    EXPECT_EQ(damped.bands, 4u);
+    for (uint32_t i = 0; i < 16; ++i) {
+        const double expected[] = {1, 1 / 1.4, 1 / 4.6, 1 / 15.4};
+        const uint32_t band = i == 0 ? 0 : i < 4 ? 1 : i < 9 ? 2 : 3;
+        EXPECT_LT(glm::length(damped.coefficients[i] - expected[band] * function.coefficients[i]), 1e-12) << i;
+    }
+}
+
+TEST(Sh, TexelsLieWhereProjectionTakesThemToBe)
+{
+    constexpr uint32_t kWidth = 24, kHeight = 10;
+    uint32_t next = 0;
+    const ImageF map = paint(kWidth, kHeight, [&](const dvec3&) { return dvec3(++next); });
+    for (uint32_t row = 0; row < kHeight; ++row)
+        for (uint32_t column = 0; column < kWidth; ++column)
+            for (const double off : {0.01, 0.5, 0.99}) {
+                const dvec3 direction = equirectangularDirection((column + off) / kWidth, (row + off) / kHeight);
+                EXPECT_EQ(texelTowards(map, direction).x, row * kWidth + column + 1);
+            }
+    for (const double y : {-1.0, 1.0})
+        EXPECT_TRUE(std::isfinite(texelTowards(map, {0, y, 0}).x));
+    EXPECT_TRUE(std::isfinite(texelTowards(map, {0, 0, 1}).x)) << "the map's rim";
 }
 
 } // namespace

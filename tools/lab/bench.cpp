@@ -13,6 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr float kStirSeconds = 1e-3f; // to and fro: every frame has another pose, and none is far from the point's time
+constexpr float kTurnRadians = 1e-3f; // so does the light
 
 // The first frame after a change of knobs makes buffers, and a frame is reported when the device is done with it.
 constexpr uint32_t kFramesToSettle = 1 + gpu::kFramesInFlight;
@@ -31,27 +32,6 @@ constexpr std::array kCounters{Counter{"rays_considered", &shader::CounterBlock:
                                Counter{"inf_pixels", &shader::CounterBlock::infPixels},
                                Counter{"negative_pixels", &shader::CounterBlock::negativePixels}};
 
-Series& named(std::vector<Series>& series, std::string_view name)
-{
-    const auto found = std::ranges::find(series, name, &Series::name);
-    return found != series.end() ? *found : series.emplace_back(Series{std::string(name), {}});
-}
-
-void push(std::vector<Series>& series, std::string_view name, std::optional<double> value)
-{
-    Series& target = named(series, name);
-    if (value)
-        target.values.push_back(*value);
-}
-
-void appendAll(std::vector<Series>& to, const std::vector<Series>& from)
-{
-    for (const Series& series : from) {
-        std::vector<double>& values = named(to, series.name).values;
-        values.insert(values.end(), series.values.begin(), series.values.end());
-    }
-}
-
 std::string crowdOf(const app::SweepPoint& point)
 {
     std::string count;
@@ -63,15 +43,10 @@ std::string crowdOf(const app::SweepPoint& point)
 
 } // namespace
 
-void Samples::append(const Samples& more)
-{
-    appendAll(times, more.times);
-    appendAll(counters, more.counters);
-}
-
 Bench::Bench(gpu::Device& device, const app::SweepPoint& point)
     : point_(point), deviceClass_(app::deviceClassOf(device.info())),
-      stage_(app::findScene(point.scene, point.settings), 0, app::noGameplay, point.settings), renderer_(device, stage_.assets(), point.size)
+      stage_(app::findScene(point.scene, point.settings), 0, app::noGameplay, point.settings),
+      renderer_(device, stage_.assets(), point.size)
 {
     advance(point.seconds);
 }
@@ -86,14 +61,7 @@ render::Knobs Bench::resolve(const app::SweepPoint& point) const
     return render::resolveKnobs(deviceClass_, stage_.settings(), point.settings);
 }
 
-render::Settings Bench::knobsOf(const app::SweepPoint& point) const
-{
-    const render::Knobs knobs = resolve(point);
-    render::Settings values;
-    for (const render::KnobDescription& knob : render::knobTable())
-        values.emplace_back(knob.key, render::get(knobs, knob.key));
-    return values;
-}
+render::Settings Bench::knobsOf(const app::SweepPoint& point) const { return render::valuesOf(resolve(point)); }
 
 void Bench::advance(float seconds)
 {
@@ -171,12 +139,13 @@ std::optional<Samples> Bench::measure(const app::SweepPoint& point, const app::I
             advance(stir);
             away += stir;
         }
+        if (point.turnsLight)
+            view_.environment.rotationRadians += frame % 2 == 0 ? kTurnRadians : -kTurnRadians;
         const double milliseconds = draw();
         if (frame >= kFramesToSettle)
             addFrame(samples, milliseconds);
     }
-    if (away != 0)
-        advance(-away);
+    advance(-away);
     return interrupt.isInterrupted() ? std::nullopt : std::optional(samples);
 }
 

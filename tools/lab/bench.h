@@ -6,28 +6,11 @@
 #include "app/stage.h"
 #include "app/sweep.h"
 #include "render/renderer.h"
+#include "tools/lab/samples.h"
 
 #include <functional>
-#include <optional>
-#include <vector>
 
 namespace antumbra::lab {
-
-/// A quantity by its name, one value a frame.
-struct Series
-{
-    std::string name;
-    std::vector<double> values;
-};
-
-/// What frames cost and counted. The first times are "frame", by the host's clock, and "device frame"; then come the passes.
-struct Samples
-{
-    std::vector<Series> times; // milliseconds; a time that cannot be had has no value
-    std::vector<Series> counters;
-
-    void append(const Samples& more);
-};
 
 class Bench
 {
@@ -46,7 +29,8 @@ public:
     bool accumulate(uint32_t samples, const app::InterruptGuard& interrupt, const std::function<void(uint32_t)>& tell);
     /// After accumulate().
     [[nodiscard]] app::ImageError errorOf(const app::SweepPoint& point);
-    /// Times and counters of as many frames as the point says; nothing where it was interrupted.
+    /// Times, of which the first are "frame" by the host's clock and "device frame", and counters of as many frames as the point says;
+    /// nothing where it was interrupted.
     std::optional<Samples> measure(const app::SweepPoint& point, const app::InterruptGuard& interrupt);
 
     /// That measure() draws; some of them to settle after what was drawn before.

@@ -1,9 +1,6 @@
 #include "tools/lab/lab.h"
 
-#include "base/log.h"
-
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace antumbra::lab {
@@ -12,40 +9,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kSilence{2};
-
-std::string minutes(double seconds)
-{
-    const auto whole = static_cast<int>(std::ceil(seconds));
-    return fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
+constexpr std::string_view kColumns[] = {"frame", "occlusion trace"};
 
 } // namespace
 
-void Progress::tell(const std::string& line)
+Lab::Lab(app::Sweep sweep, const Path& folder, bool resumes)
+    : sweep_(std::move(sweep)), record_({.sweep = sweep_.name, .device = device_.info(), .rows = {}}, folder)
 {
-    if (Clock::now() - told_ < kSilence)
-        return;
-    told_ = Clock::now();
-    logInfo("{}", line);
-}
-
-Lab::Lab(app::Sweep sweep, Path folder, bool resumes) : sweep_(std::move(sweep)), folder_(std::move(folder))
-{
-    results_ = {.sweep = sweep_.name, .device = device_.info(), .rows = {}};
     for (const app::SweepPoint& point : sweep_.points)
-        results_.rows.push_back({.point = point, .knobs = benchOf(point).knobsOf(point)});
-    if (resumes && std::filesystem::exists(file("json")))
-        resume(results_, file("json"));
-    milliseconds_.resize(results_.rows.size());
-}
-
-Path Lab::file(std::string_view extension) const { return folder_ / fmt::format("{}.{}", sweep_.name, extension); }
-
-void Lab::save() const
-{
-    writeText(file("json"), jsonOf(results_));
-    writeText(file("csv"), csvOf(results_));
+        record_.results.rows.push_back({.point = point, .knobs = benchOf(point).knobsOf(point)});
+    if (resumes)
+        record_.resumeFromDisk();
+    milliseconds_.resize(record_.results.rows.size());
 }
 
 Bench& Lab::benchOf(const app::SweepPoint& point)
@@ -57,18 +32,17 @@ Bench& Lab::benchOf(const app::SweepPoint& point)
 bool Lab::run()
 {
     const bool isDone = warmUp() && measureErrors() && measureTimes();
-    save();
-    fmt::print("{}{}\n{}\n", tableOf(results_), file("json").string(), file("csv").string());
+    record_.finish(kColumns);
     return isDone;
 }
 
 bool Lab::warmUp()
 {
-    for (size_t i = 0; i < results_.rows.size(); ++i) {
+    for (size_t i = 0; i < record_.results.rows.size(); ++i) {
         if (interrupt_.isInterrupted())
             return false;
-        const app::SweepPoint& point = results_.rows[i].point;
-        progress_.tell(fmt::format("warm-up, {} of {}: {}", i + 1, results_.rows.size(), point.name));
+        const app::SweepPoint& point = record_.results.rows[i].point;
+        progress_.tell(fmt::format("warm-up, {} of {}: {}", i + 1, record_.results.rows.size(), point.name));
         milliseconds_[i] = benchOf(point).warmUp(point, sweep_.warmUp);
     }
     return true;
@@ -78,7 +52,7 @@ bool Lab::measureErrors()
 {
     for (const std::unique_ptr<Bench>& bench : benches_) {
         uint32_t samples = 0;
-        for (const Row& row : results_.rows)
+        for (const Row& row : record_.results.rows)
             if (bench->fits(row.point) && !row.error)
                 samples = std::max(samples, row.point.referenceSamples);
         if (samples > 0 && !measureErrors(*bench, samples))
@@ -97,18 +71,18 @@ bool Lab::measureErrors(Bench& bench, uint32_t samples)
     };
     if (!bench.accumulate(samples, interrupt_, tell))
         return false;
-    for (Row& row : results_.rows)
+    for (Row& row : record_.results.rows)
         if (bench.fits(row.point) && row.point.referenceSamples > 0 && !row.error)
             row.error = bench.errorOf(row.point);
-    save();
+    record_.save();
     return true;
 }
 
 double Lab::secondsLeft() const
 {
     double milliseconds = 0;
-    for (size_t i = 0; i < results_.rows.size(); ++i) {
-        const Row& row = results_.rows[i];
+    for (size_t i = 0; i < record_.results.rows.size(); ++i) {
+        const Row& row = record_.results.rows[i];
         if (row.rounds < sweep_.repeats)
             milliseconds += (sweep_.repeats - row.rounds) * Bench::framesOf(row.point) * milliseconds_[i];
     }
@@ -118,7 +92,7 @@ double Lab::secondsLeft() const
 bool Lab::measureTimes()
 {
     for (uint32_t round = 0; round < sweep_.repeats; ++round) {
-        for (Row& row : results_.rows) {
+        for (Row& row : record_.results.rows) {
             if (row.rounds > round)
                 continue;
             progress_.tell(fmt::format("round {} of {}: {}, {} left", round + 1, sweep_.repeats, row.point.name, minutes(secondsLeft())));
@@ -128,7 +102,7 @@ bool Lab::measureTimes()
             row.samples.append(*samples);
             ++row.rounds;
         }
-        save();
+        record_.save();
     }
     return true;
 }

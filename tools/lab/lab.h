@@ -2,36 +2,25 @@
 // round, whoever interrupts. Decides nothing about what is measured: that is the sweep's.
 #pragma once
 
-#include "tools/lab/results.h"
+#include "app/interrupt.h"
+#include "tools/lab/bench.h"
+#include "tools/lab/record.h"
 
-#include <chrono>
 #include <memory>
 
 namespace antumbra::lab {
 
-/// Lines on stderr, not too many.
-class Progress
-{
-public:
-    void tell(const std::string& line);
-
-private:
-    std::chrono::steady_clock::time_point told_{};
-};
-
 class Lab
 {
 public:
-    /// Results are FOLDER/NAME.json and .csv; `resumes` goes on from those that are there. Loads every scene; throws Error for one that
+    /// `resumes` goes on from the results that are in `folder`. Loads every scene; throws Error for one that
     /// does not load, for results of something else, and where there is no device.
-    Lab(app::Sweep sweep, Path folder, bool resumes);
+    Lab(app::Sweep sweep, const Path& folder, bool resumes);
 
     /// False where somebody interrupted it.
     bool run();
 
 private:
-    [[nodiscard]] Path file(std::string_view extension) const;
-    void save() const;
     Bench& benchOf(const app::SweepPoint& point);
     bool warmUp();
     bool measureErrors();
@@ -41,10 +30,9 @@ private:
     [[nodiscard]] double secondsLeft() const;
 
     app::Sweep sweep_;
-    Path folder_;
     gpu::Device device_{{}};
     std::vector<std::unique_ptr<Bench>> benches_;
-    Results results_;
+    Record record_;
     std::vector<double> milliseconds_; // a frame, one a row
     app::InterruptGuard interrupt_;
     Progress progress_;

@@ -1,6 +1,7 @@
 // lab SWEEP.json --output DIR [--resume]: the command line of the lab (DESIGN.md, Commands).
 #include "base/error.h"
 #include "base/log.h"
+#include "tools/lab/bake_lab.h"
 #include "tools/lab/lab.h"
 
 #include <CLI/CLI.hpp>
@@ -38,6 +39,15 @@ std::optional<Options> parse(int argc, char** argv)
     return options;
 }
 
+/// False where somebody interrupted it.
+bool run(const Options& options)
+{
+    app::Sweep sweep = app::loadSweep(options.sweep);
+    if (sweep.measure == app::Measure::Bakes)
+        return lab::BakeLab(std::move(sweep), options.output, options.resumes).run();
+    return lab::Lab(std::move(sweep), options.output, options.resumes).run();
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -46,8 +56,7 @@ int main(int argc, char** argv)
         const std::optional<Options> options = parse(argc, argv);
         if (!options)
             return static_cast<int>(ExitCode::Done);
-        lab::Lab lab(app::loadSweep(options->sweep), options->output, options->resumes);
-        return static_cast<int>(lab.run() ? ExitCode::Done : ExitCode::CheckFailed);
+        return static_cast<int>(run(*options) ? ExitCode::Done : ExitCode::CheckFailed);
     } catch (const Error& error) {
         logError("{}", error.what());
         return static_cast<int>(error.code);

@@ -22,6 +22,8 @@ struct Figure
     double app::ImageError::*value;
 };
 
+constexpr int kColumnWidth = 26;
+
 constexpr Figure kFigures[] = {{"rmse", &app::ImageError::rmse},
                                {"relative_rmse", &app::ImageError::relativeRmse},
                                {"mae", &app::ImageError::mae},
@@ -61,12 +63,30 @@ Json knobsOf(const Row& row)
     return knobs;
 }
 
+Json machineOf(const Results& results)
+{
+    Json machine = {{"threads", std::thread::hardware_concurrency()}, {"device", nullptr}};
+    if (const std::optional<gpu::DeviceInfo>& device = results.device)
+        machine.update({{"device", device->name},
+                        {"driver", device->driver},
+                        {"vulkan", device->api},
+                        {"is_cpu", device->isCpu},
+                        {"subgroup_size", device->subgroupSize}});
+    return machine;
+}
+
 /// What a row must share with one that is taken over.
 Json identityOf(const Row& row)
 {
     const app::SweepPoint& point = row.point;
-    return {{"name", point.name},    {"scene", point.scene},      {"size", {point.size.x, point.size.y}},
-            {"time", point.seconds}, {"animate", point.animates}, {"reference", point.referenceSamples},
+    return {{"name", point.name},
+            {"scene", point.scene},
+            {"size", {point.size.x, point.size.y}},
+            {"time", point.seconds},
+            {"animate", point.animates},
+            {"turn", point.turnsLight},
+            {"reference", point.referenceSamples},
+            {"truth", point.truth == app::BakeTruth::Map ? "map" : "bands"},
             {"knobs", knobsOf(row)}};
 }
 
@@ -140,6 +160,12 @@ std::string headOf(const Results& results, const std::vector<std::string>& times
     return line + '\n';
 }
 
+/// Empty where there is none.
+std::string figureOf(const std::optional<app::ImageError>& error, const Figure& figure)
+{
+    return error && !std::isnan((*error).*figure.value) ? fmt::format("{:.6g}", (*error).*figure.value) : "";
+}
+
 std::string cellsOf(const std::vector<Series>& all, const std::vector<std::string>& names)
 {
     std::string cells;
@@ -163,7 +189,7 @@ std::string csvOf(const Results& results)
         for (const auto& [key, value] : row.knobs)
             text += ',' + value;
         for (const Figure& figure : kFigures)
-            text += row.error ? fmt::format(",{:.6g}", (*row.error).*figure.value) : ",";
+            text += "," + figureOf(row.error, figure);
         text += cellsOf(row.samples.times, times) + cellsOf(row.samples.counters, counters) + '\n';
     }
     return text;
@@ -171,19 +197,10 @@ std::string csvOf(const Results& results)
 
 std::string jsonOf(const Results& results)
 {
-    const gpu::DeviceInfo& device = results.device;
     Json rows = Json::array();
     for (const Row& row : results.rows)
         rows.push_back(jsonOf(row));
-    const Json document = {{"sweep", results.sweep},
-                           {"machine",
-                            {{"device", device.name},
-                             {"driver", device.driver},
-                             {"vulkan", device.api},
-                             {"is_cpu", device.isCpu},
-                             {"subgroup_size", device.subgroupSize},
-                             {"threads", std::thread::hardware_concurrency()}}},
-                           {"rows", rows}};
+    const Json document = {{"sweep", results.sweep}, {"machine", machineOf(results)}, {"rows", rows}};
     return document.dump(1) + '\n';
 }
 
@@ -191,8 +208,7 @@ void resume(Results& results, const Path& file)
 {
     try {
         const Json document = Json::parse(readText(file));
-        const Json& machine = document.at("machine");
-        if (machine.at("device") != results.device.name || machine.at("driver") != results.device.driver)
+        if (document.at("machine") != machineOf(results))
             throw Error("measured on another device: it cannot be resumed here", file.string());
         for (const Json& object : document.at("rows")) {
             const auto row =
@@ -208,17 +224,23 @@ void resume(Results& results, const Path& file)
     }
 }
 
-std::string tableOf(const Results& results)
+std::string tableOf(const Results& results, std::span<const std::string_view> columns)
 {
-    std::string text = fmt::format("{:<52}{:>10}{:>10}{:>12}{:>8}\n", "medians, milliseconds", "frame", "trace", "rel. RMSE", "SSIM");
+    std::string text = fmt::format("{:<52}", "medians, milliseconds");
+    for (const std::string_view column : columns)
+        text += fmt::format("{:>{}}", column, kColumnWidth);
+    text += fmt::format("{:>12}{:>8}\n", "rel. RMSE", "SSIM");
     for (const Row& row : results.rows) {
-        const auto time = [&](std::string_view name) {
-            const std::optional<app::Quartiles> quartiles = quartilesOf(row.samples.times, name);
-            return quartiles ? fmt::format("{:10.2f}", quartiles->median) : fmt::format("{:>10}", "-");
+        text += fmt::format("{:<52}", row.point.name);
+        for (const std::string_view column : columns) {
+            const std::optional<app::Quartiles> quartiles = quartilesOf(row.samples.times, column);
+            text += quartiles ? fmt::format("{:{}.2f}", quartiles->median, kColumnWidth) : fmt::format("{:>{}}", "-", kColumnWidth);
+        }
+        const auto figure = [&](double app::ImageError::*value, int digits, std::string_view unit, double scale, int width) {
+            const bool isKnown = row.error && !std::isnan((*row.error).*value);
+            return fmt::format("{:>{}}", isKnown ? fmt::format("{:.{}f}{}", scale * (*row.error).*value, digits, unit) : "-", width);
         };
-        const std::string error = row.error ? fmt::format("{:11.3f}%{:8.4f}", 100 * row.error->relativeRmse, row.error->ssim)
-                                            : fmt::format("{:>12}{:>8}", "-", "-");
-        text += fmt::format("{:<52}{}{}{}\n", row.point.name, time("frame"), time("occlusion trace"), error);
+        text += figure(&app::ImageError::relativeRmse, 3, "%", 100, 12) + figure(&app::ImageError::ssim, 4, "", 1, 8) + '\n';
     }
     return text;
 }

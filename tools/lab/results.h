@@ -1,8 +1,12 @@
 // The lab's results: rows that grow with every round, as JSON to read on from and as CSV to look at.
 #pragma once
 
+#include "app/measure.h"
+#include "app/sweep.h"
 #include "gpu/device.h"
-#include "tools/lab/bench.h"
+#include "tools/lab/samples.h"
+
+#include <span>
 
 namespace antumbra::lab {
 
@@ -19,7 +23,7 @@ struct Row
 struct Results
 {
     std::string sweep;
-    gpu::DeviceInfo device;
+    std::optional<gpu::DeviceInfo> device; // nothing: the processor alone was measured
     std::vector<Row> rows;
 };
 
@@ -31,7 +35,7 @@ std::string jsonOf(const Results& results);
 /// Takes over what `file`, as jsonOf() wrote it, knows of the rows. Throws Error where it is of another sweep or another device.
 void resume(Results& results, const Path& file);
 
-/// Medians of the frame and of the occlusion trace, and the error, a line a row.
-std::string tableOf(const Results& results);
+/// Medians of the times that `columns` names, and the error, a line a row.
+std::string tableOf(const Results& results, std::span<const std::string_view> columns);
 
 } // namespace antumbra::lab

@@ -46,7 +46,7 @@ scene::ImageF paint(RadianceOf radianceOf)
 /// Scaled so that level white ground, lit by the whole upper half, has a luminance of one.
 void expose(scene::ImageF& map)
 {
-    const dvec3 irradiance = bake::evaluate(bake::irradianceOf(bake::project(map, bake::kMostBands)), {0, 1, 0});
+    const dvec3 irradiance = bake::irradianceOf(bake::project(map, bake::kMostBands))({0, 1, 0});
     const double luminance = glm::dot(irradiance, dvec3{0.2126, 0.7152, 0.0722}) / std::numbers::pi;
     for (float& value : map.values)
         value = static_cast<float>(value / luminance);

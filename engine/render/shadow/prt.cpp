@@ -114,14 +114,14 @@ void PrtSystem::declareVolume(graph::FrameGraph& graph, uint32_t frame, Baked& b
     });
 }
 
-Baked PrtSystem::declare(graph::FrameGraph& graph, uint32_t frame, const shader::FrameBlock& light)
+Baked PrtSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const shader::FrameBlock& light)
 {
     const auto skip = [&](std::string_view reason) {
         for (const std::string_view pass : {"prt relight", "volume relight"})
             graph.skip(pass, reason);
     };
     if (!held_) {
-        skip("no StaticPRT with a bake");
+        skip(view.bake != nullptr ? "prt.bake is off" : "no StaticPRT with a bake");
         return {};
     }
     Baked baked{.texels = graph.importBuffer("baked texels", held_->texels.bytes(), graph::importedBuffer(held_->texels)),

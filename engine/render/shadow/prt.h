@@ -2,8 +2,8 @@
 // frames in which the environment's light changed and in no other. Bakes nothing, and draws nothing.
 #pragma once
 
-#include "bake/bake.h"
 #include "graph/executor.h"
+#include "render/frame_view.h"
 #include "render/shader_structs.h"
 
 #include <optional>
@@ -27,7 +27,7 @@ public:
     /// Makes what the bake needs on the device and drops what another one needed. Returns what the frame block says of it.
     shader::BakedLight prepare(const bake::Bake* bake);
     /// After prepare(). `frame` is the slot of `light`, whose radiance has the bake's bands at least.
-    Baked declare(graph::FrameGraph& graph, uint32_t frame, const shader::FrameBlock& light);
+    Baked declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const shader::FrameBlock& light);
 
 private:
     struct OnDevice

@@ -44,7 +44,7 @@ uint64_t ReferenceSystem::fingerprint(const FrameView& view, RayBackend backend,
     Fingerprint print;
     print.add(backend).add(extent).add(view.camera.eye).add(view.camera.rotation).add(view.camera.verticalFovRadians);
     print.add(view.environment.image).add(view.environment.rotationRadians).add(view.environment.intensity);
-    print.add(view.bake).add(view.knobs.prt.window);
+    print.add(view.shownBake()).add(view.knobs.prt.window);
     for (const StaticDraw& draw : view.statics)
         print.add(draw.model).add(draw.world).add(draw.isBaked);
     for (const CharacterDraw& draw : view.characters)
