@@ -3,6 +3,7 @@
 #include "lib/bindless.glsl"
 #include "lib/frame.glsl"
 #include "shared/scene.h"
+#include "lib/half.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/sh.glsl"
 #if defined(BAKED)
@@ -21,7 +22,7 @@ layout(location = 1) in vec3 normalWorld;
 layout(location = 2) in vec2 uv;
 #endif
 #ifdef BAKED
-layout(location = 3) in vec2 bakeUv;
+layout(location = 3) in vec2 bakePlace; // on the atlas, texels
 #endif
 
 layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
@@ -31,11 +32,9 @@ layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
 vec3 firstTerm(vec3 shading)
 {
 #if defined(BAKED)
-    return atlasIrradiance(frameBlock.baked, bakeUv);
+    return atlasIrradiance(frameBlock.baked, bakePlace);
 #elif defined(LOCAL_LIGHT)
-    vec3 radiance[9];
-    localRadianceOfQuad(frameBlock.baked, positionWorld, shading, radiance);
-    return irradianceOfSh3(radiance, shading);
+    return localIrradianceOfQuad(frameBlock.baked, positionWorld, shading, gl_HelperInvocation);
 #else
     float y[9];
     shBasis3(shading, y);
@@ -65,7 +64,7 @@ void main()
 
     outNormals = vec4(octahedralFromUnit(geometric), octahedralFromUnit(shading));
     outAlbedo = vec4(base.rgb, (pc.flags & kDrawDynamic) != 0u ? 1.0 : 0.0);
-    outUnshadowed = vec4(firstTerm(shading), pc.material.roughness);
+    outUnshadowed = vec4(withinHalf(firstTerm(shading)), pc.material.roughness);
 #ifdef CUT_OUT
     if (base.a < pc.material.alphaCutoff)
         discard; // last, as neighbours ask for derivatives and quads share look-ups

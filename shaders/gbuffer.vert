@@ -3,6 +3,9 @@
 #include "lib/bindless.glsl"
 #include "lib/frame.glsl"
 #include "shared/scene.h"
+#ifdef BAKED
+#include "lib/atlas.glsl"
+#endif
 
 layout(buffer_reference, scalar) readonly buffer Vectors { vec3 value[]; };
 layout(buffer_reference, scalar) readonly buffer Uvs { vec2 value[]; };
@@ -14,7 +17,7 @@ layout(location = 1) out vec3 normalWorld;
 layout(location = 2) out vec2 uv;
 #endif
 #ifdef BAKED
-layout(location = 3) out vec2 bakeUv;
+layout(location = 3) out vec2 bakePlace;
 #endif
 
 void main()
@@ -29,7 +32,7 @@ void main()
     uv = Uvs(pc.uvs).value[gl_VertexIndex];
 #endif
 #ifdef BAKED
-    bakeUv = Uvs(pc.bakeUvs).value[gl_VertexIndex];
+    bakePlace = placeOnAtlas(frameBlock.baked, Uvs(pc.bakeUvs).value[gl_VertexIndex]);
 #endif
     gl_Position = frameBlock.clipFromWorld * vec4(positionWorld, 1.0);
 }

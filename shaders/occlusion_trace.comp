@@ -41,15 +41,24 @@ struct Receiver
 };
 
 // What the samples found: sums of the SH basis over hidden directions, from which the irradiance follows once.
-float hidden[9];
+#ifdef LOCAL_LIGHT
+const uint kHidden = 16u;
+#else
+const uint kHidden = 9u;
+#endif
+float hidden[kHidden];
 float blockerDistance = kNoBlocker;
 uint raysConsidered = 0u, raysTraced = 0u, coneCount = 0u;
 
 void addHidden(vec3 direction)
 {
-    float y[9];
+    float y[kHidden];
+#ifdef LOCAL_LIGHT
+    shBasis4(direction, y);
+#else
     shBasis3(direction, y);
-    for (int i = 0; i < 9; ++i)
+#endif
+    for (uint i = 0u; i < kHidden; ++i)
         hidden[i] += y[i];
 }
 
@@ -220,12 +229,16 @@ vec3 hiddenIrradiance(Receiver r)
 {
     vec3 sum = vec3(0.0);
 #ifdef LOCAL_LIGHT
-    vec3 radiance[9];
-    localRadiance(frameBlock.baked, r.origin, r.normal, radiance);
-    for (int i = 0; i < 9; ++i)
-        sum += radiance[i] * hidden[i];
+    vec3 radiance[kHidden];
+    localRadiance(frameBlock.baked, r.origin, radiance);
+    // A surface that hides a direction faces the receiver and sends it some of its own irradiance, which is the cosine convolution turned
+    // about: a factor a band.
+    for (uint i = 0u; i < kHidden; ++i) {
+        float sent = i < 1u ? 1.0 : i < 4u ? -2.0 / 3.0 : i < 9u ? 0.25 : 0.0;
+        sum += (1.0 - sent * frameBlock.baked.sentOn) * radiance[i] * hidden[i];
+    }
 #else
-    for (int i = 0; i < 9; ++i)
+    for (uint i = 0u; i < kHidden; ++i)
         sum += frameBlock.radianceSh[i] * hidden[i];
 #endif
     return sum * (kPi / float(pc.sampleCount));
@@ -270,7 +283,7 @@ void main()
     float depth = isInside ? texelFetch(sampledImages[pc.depth], ivec2(fullPixel), 0).x : 0.0;
     bool isSurface = depth > 0.0;
 
-    for (int i = 0; i < 9; ++i)
+    for (uint i = 0u; i < kHidden; ++i)
         hidden[i] = 0.0;
     Receiver r = Receiver(vec3(0.0), vec3(0.0, 1.0, 0.0), mat3(1.0));
     if (isSurface) {

@@ -2,6 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
 #include "lib/frame.glsl"
+#include "lib/float21.glsl"
+#include "lib/half.glsl"
 #include "shared/prt.h"
 
 // The irradiance of every texel of the atlas: its transfer vector times the environment's light (Xu et al. 2022, eq. 6).
@@ -10,8 +12,6 @@ layout(local_size_x = 64) in; // a thread two texels side by side, a word of eve
 layout(buffer_reference, scalar) readonly buffer Words { uint word[]; };
 layout(buffer_reference, scalar) writeonly buffer TexelPairs { uvec4 pair[]; };
 layout(push_constant, scalar) uniform Push { PrtRelight pc; };
-
-uvec2 packed(vec3 irradiance) { return uvec2(packHalf2x16(irradiance.rg), packHalf2x16(vec2(irradiance.b, 0.0))); }
 
 void main()
 {
@@ -28,5 +28,5 @@ void main()
             right[c] += radiance[c] * transfers.y;
         }
     }
-    TexelPairs(pc.texels).pair[pair] = uvec4(packed(left), packed(right));
+    TexelPairs(pc.texels).pair[pair] = uvec4(packFloats21(withinHalf(left)), packFloats21(withinHalf(right)));
 }

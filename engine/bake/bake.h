@@ -47,8 +47,10 @@ struct Grid
     }
 };
 
-/// Three bands of local incident light, whatever the environment's number of bands.
-inline constexpr uint32_t kLocalCoefficients = 9;
+/// Bands of local incident light, whatever the environment's number of bands. Three carry what a surface takes in; the fourth halves the
+/// error of what characters hide, for indoors light comes from a few sides.
+inline constexpr uint32_t kLocalBands = 4;
+inline constexpr uint32_t kLocalCoefficients = kLocalBands * kLocalBands;
 
 /// From the environment's light to the radiance that comes in at a point, with occlusion and interreflections by what is static:
 /// l_j = sum of M_ji L_i, channel by channel.

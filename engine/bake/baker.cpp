@@ -67,7 +67,7 @@ std::optional<Bake> bakeScene(const StaticScene& scene, const BakeSettings& sett
         return std::nullopt;
 
     add(lit, last);
-    bake.atlas = packed(lit, map);
+    bake.atlas = packed(lit, map, scene);
     bake.volume = packed(light, grid);
     return bake;
 }

@@ -58,9 +58,9 @@ Grid gridOver(const Aabb& bounds, float cellMetres);
 RayCounts gatherCells(const RayScene& rays, const TexelMap& map, const BakeSettings& settings, const Transfers& lit, const Grid& grid,
                       Range range, CellLight& result);
 
-/// As files and devices hold them. Places near a chart take the nearest valid texel's value, so that bilinear look-ups show no seam; all
-/// others, and closed cells, are zero.
-TransferAtlas packed(const Transfers& total, const TexelMap& map);
+/// As files and devices hold them. Places near a chart take the nearest valid texel's value, stitched over seams; all others, and closed
+/// cells, are zero.
+TransferAtlas packed(const Transfers& total, const TexelMap& map, const StaticScene& scene);
 IrradianceVolume packed(const CellLight& light, const Grid& grid);
 
 } // namespace antumbra::bake

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] size_t rayCount() const { return pattern_.size() * kLanes; }
 
 private:
-    static constexpr uint32_t kBasisBands = std::max(kBands, 3u);
+    static constexpr uint32_t kBasisBands = std::max(kBands, kLocalBands);
     using Basis = std::array<Lanes, kBasisBands * kBasisBands>;
 
     /// By rows of the matrix.

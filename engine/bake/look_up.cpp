@@ -9,11 +9,16 @@ namespace antumbra::bake {
 
 namespace {
 
-constexpr float kOffSurface = 0.3f; // cells
-
 double half(const std::vector<uint16_t>& planes, size_t index) { return static_cast<double>(glm::unpackHalf1x16(planes[index])); }
 
 double sideWeight(int step, float part) { return step == 1 ? part : 1 - part; }
+
+/// 0 inside the outermost cells, 1 from one cell beyond them on; `place` in cells from the first.
+double shareOutside(vec3 place, vec3 last)
+{
+    const vec3 beyond = glm::max(-place, place - last) - 0.5f;
+    return glm::clamp(std::max({beyond.x, beyond.y, beyond.z}), 0.0f, 1.0f);
+}
 
 /// Adds the light of one cell, row by row of its matrix.
 void addCell(ShFunction& sum, const IrradianceVolume& volume, const ShFunction& radiance, uint32_t cell, double weight)
@@ -52,28 +57,31 @@ glm::dvec3 atlasIrradiance(const Bake& bake, const ShFunction& radiance, vec2 ba
     return sum;
 }
 
-ShFunction localRadiance(const Bake& bake, const ShFunction& radiance, vec3 position, vec3 normal)
+ShFunction localRadiance(const Bake& bake, const ShFunction& radiance, vec3 position)
 {
     check(radiance.bands == bake.settings.bands, "light of the bake's bands");
     const Grid& grid = bake.volume.grid;
     const vec3 last = vec3(grid.count) - 1.0f;
-    const vec3 place = glm::clamp((position - grid.origin) / grid.spacing + kOffSurface * normal, vec3(0), last);
+    const vec3 unclamped = (position - grid.origin) / grid.spacing, place = glm::clamp(unclamped, vec3(0), last);
     const vec3 corner = glm::min(glm::floor(place), glm::max(last - 1.0f, vec3(0))), part = place - corner;
-    ShFunction sum{.bands = 3, .coefficients = {}};
-    double openWeight = 0;
+    const double outside = shareOutside(unclamped, last);
+    ShFunction sum{.bands = kLocalBands, .coefficients = {}};
+    for (uint32_t i = 0; i < std::min(kLocalCoefficients, radiance.coefficientCount()); ++i)
+        sum.coefficients[i] = outside * radiance.coefficients[i];
+    double whole = outside;
     for (int k = 0; k < 8; ++k) {
         const ivec3 step(k & 1, k >> 1 & 1, k >> 2);
         const uvec3 at = glm::min(uvec3(corner) + uvec3(step), grid.count - 1u);
         const uint32_t cell = (at.z * grid.count.y + at.y) * grid.count.x + at.x;
-        const double weight = sideWeight(step.x, part.x) * sideWeight(step.y, part.y) * sideWeight(step.z, part.z);
+        const double weight = (1 - outside) * sideWeight(step.x, part.x) * sideWeight(step.y, part.y) * sideWeight(step.z, part.z);
         if (bake.volume.isOpen[cell] == 0 || weight == 0)
             continue;
         addCell(sum, bake.volume, radiance, cell, weight);
-        openWeight += weight;
+        whole += weight;
     }
-    if (openWeight > 0)
+    if (whole > 0)
         for (glm::dvec3& coefficient : sum.coefficients)
-            coefficient /= openWeight;
+            coefficient /= whole;
     return sum;
 }
 

@@ -1,7 +1,9 @@
 #include "bake/gather.h"
+#include "bake/seams.h"
 
 #include "base/check.h"
 
+#include <algorithm>
 #include <glm/gtc/packing.hpp>
 
 namespace antumbra::bake {
@@ -11,22 +13,25 @@ namespace {
 /// How far values spread beyond a chart, texels: bilinear look-ups reach one, lower mip levels and other resolutions some more.
 constexpr uint32_t kReach = 4;
 
+/// Rounded to eight significant bits of eleven: within 0.2 %, far less than the noise of gathering, and a quarter off compressed files.
 uint16_t half(float value)
 {
-    constexpr float kLargestHalf = 65504;
-    return glm::packHalf1x16(glm::clamp(value, -kLargestHalf, kLargestHalf));
+    constexpr uint32_t kDropped = 3, kLargestHalf = 0x7bff & ~((1u << kDropped) - 1), kSign = 0x8000;
+    const uint32_t bits = glm::packHalf1x16(glm::clamp(value, -65504.0f, 65504.0f));
+    const uint32_t rounded = (bits + (1u << (kDropped - 1))) >> kDropped << kDropped; // carries into the exponent where it must
+    return static_cast<uint16_t>((bits & kSign) | std::min(rounded & ~kSign, kLargestHalf));
 }
 
 } // namespace
 
-TransferAtlas packed(const Transfers& total, const TexelMap& map)
+TransferAtlas packed(const Transfers& total, const TexelMap& map, const StaticScene& scene)
 {
     const uint32_t coefficients = total.coefficientCount;
     check(total.isValid.size() == map.texelCount() && total.values.size() == size_t{map.texelCount()} * coefficients,
           "transfers of this map's texels");
     const std::vector<uint32_t> sources = dilated(map, total.isValid, kReach);
-    const size_t places = sources.size();
-    TransferAtlas atlas{.extent = map.extent, .planes = std::vector<uint16_t>(places * coefficients * 3, 0)};
+    const size_t places = sources.size(), planes = size_t{coefficients} * 3;
+    TransferAtlas atlas{.extent = map.extent, .planes = std::vector<uint16_t>(places * planes, 0)};
     for (size_t place = 0; place < places; ++place) {
         if (sources[place] == kNoTexel)
             continue;
@@ -35,6 +40,10 @@ TransferAtlas packed(const Transfers& total, const TexelMap& map)
             for (int channel = 0; channel < 3; ++channel)
                 atlas.planes[(size_t{i} * 3 + channel) * places + place] = half(transfer[i][channel]);
     }
+    const auto [seamPlaces, seamValues] = stitched(seamPoints(scene), map, sources, total);
+    for (size_t i = 0; i < seamPlaces.size(); ++i)
+        for (size_t plane = 0; plane < planes; ++plane)
+            atlas.planes[plane * places + seamPlaces[i]] = half(seamValues[i * planes + plane]);
     return atlas;
 }
 

@@ -11,11 +11,7 @@ namespace antumbra::bake {
 
 namespace {
 
-float srgbDecoded(uint8_t encoded)
-{
-    const float x = static_cast<float>(encoded) / 255.0f;
-    return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
-}
+float decoded(uint8_t encoded) { return scene::srgbDecoded(static_cast<float>(encoded) / 255.0f); }
 
 float wrapped(float x, scene::Wrap wrap)
 {
@@ -46,7 +42,7 @@ vec4 imageAt(const StaticScene& scene, const scene::Material& material, const Su
         return vec4{1};
     const uint32_t x = texelOf(wrapped(uv.x, material.wrapU), image.width), y = texelOf(wrapped(uv.y, material.wrapV), image.height);
     const uint8_t* texel = &image.rgba[size_t{4} * (size_t{y} * image.width + x)];
-    return {srgbDecoded(texel[0]), srgbDecoded(texel[1]), srgbDecoded(texel[2]), static_cast<float>(texel[3]) / 255.0f};
+    return {decoded(texel[0]), decoded(texel[1]), decoded(texel[2]), static_cast<float>(texel[3]) / 255.0f};
 }
 
 float reflectance(float albedo) { return albedo > 0 ? std::min(albedo, 1.0f) : 0.0f; } // NaN counts as nothing

@@ -30,6 +30,23 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
     block.rayY = camera.rotation * vec3{0, -2.0f * top / height, 0};
 }
 
+vec3 meanAlbedoOfCharacters(const FrameView& view, const GpuScene& scene)
+{
+    vec3 sum{0};
+    for (const CharacterDraw& character : view.characters)
+        sum += scene.model(character.model).meanAlbedo;
+    return view.characters.empty() ? sum : sum / static_cast<float>(view.characters.size());
+}
+
+/// What of baked light follows from the frame's own.
+void completeBaked(shader::FrameBlock& block, const bake::BakeSettings& settings, vec3 albedo)
+{
+    for (uint32_t i = 0; i < shader::kLocalShCoefficients; ++i)
+        block.baked.outside[i] = i < settings.coefficientCount() ? block.radianceSh[i] : vec3(0);
+    constexpr float kFacesLight = 0.5f; // surfaces that face each other hide half of each other's light
+    block.baked.sentOn = settings.bounces > 0 ? kFacesLight * albedo : vec3(0);
+}
+
 } // namespace
 
 mat4 clipFromWorld(const CameraView& camera, uvec2 extent)
@@ -76,6 +93,8 @@ uint32_t FrameBlocks::write(const FrameView& view, const GpuScene& scene, const 
     writeCamera(newest_, view.camera, extent);
     writeEnvironment(view, scene);
     newest_.baked = baked;
+    if (const bake::Bake* bake = view.shownBake())
+        completeBaked(newest_, bake->settings, meanAlbedoOfCharacters(view, scene));
     const gpu::Buffer& frame = blocks_[device_->frameSlot()];
     std::memcpy(frame.mapped(), &newest_, sizeof(newest_));
     return frame.slot();

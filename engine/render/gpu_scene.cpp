@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "render/bones.h"
 #include "scene/animation.h"
+#include "scene/mean_albedo.h"
 
 #include <algorithm>
 #include <bit>
@@ -108,6 +109,7 @@ void GpuScene::makeModel(uint32_t index)
         made.materials.push_back(
             {{m.albedo, m.alphaCutoff, m.alpha, m.roughness, m.metallic, m.specular, slot(m.albedoImage), slot(m.metallicRoughnessImage)},
              m.twoSided});
+    made.meanAlbedo = scene::meanAlbedo(model);
     models_[index] = std::move(made);
 }
 

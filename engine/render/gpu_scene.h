@@ -33,6 +33,7 @@ struct DeviceModel
     std::vector<gpu::Image> images;
     uint32_t vertexCount = 0;
     uint32_t triangleCount = 0;
+    vec3 meanAlbedo{0};
 };
 
 /// What only posed models need.

@@ -56,8 +56,6 @@ void declarePresent(graph::FrameGraph& graph, ImageRef picture, const gpu::Image
     graph.output(shown, Use::Present);
 }
 
-float srgbDecoded(float encoded) { return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f); }
-
 /// One pixel as four floats.
 vec4 unpacked(const std::byte* pixel, gpu::Format format)
 {
@@ -76,7 +74,7 @@ vec4 unpacked(const std::byte* pixel, gpu::Format format)
         uint32_t bits = 0;
         std::memcpy(&bits, pixel, sizeof(bits));
         const vec4 encoded = glm::unpackUnorm4x8(bits);
-        return {srgbDecoded(encoded.x), srgbDecoded(encoded.y), srgbDecoded(encoded.z), encoded.w};
+        return {scene::srgbDecoded(encoded.x), scene::srgbDecoded(encoded.y), scene::srgbDecoded(encoded.z), encoded.w};
     }
     case gpu::Format::Rgba32Float: {
         vec4 value;

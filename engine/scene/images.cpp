@@ -173,6 +173,8 @@ Image8 decodeImage8(std::span<const std::byte> encoded, const std::string& name)
     return {picture.width(), picture.height(), widened(picture.read<uint8_t>(OIIO::TypeDesc::UINT8), picture.channels())};
 }
 
+float srgbDecoded(float encoded) { return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f); }
+
 void saveExr(const Path& path, const ImageF& image)
 {
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), static_cast<int>(image.channels),

@@ -36,6 +36,9 @@ ImageF loadImageF(const Path& path);
 /// PNG or JPEG; `name` is what an Error calls it. Alpha is not multiplied in.
 Image8 decodeImage8(std::span<const std::byte> encoded, const std::string& name);
 
+/// Linear light of an sRGB value 0..1.
+float srgbDecoded(float encoded);
+
 void saveExr(const Path& path, const ImageF& image);
 void savePng(const Path& path, const Image8& image);
 

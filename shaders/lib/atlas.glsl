@@ -3,22 +3,26 @@
 #ifndef LIB_ATLAS_GLSL
 #define LIB_ATLAS_GLSL
 
+#include "lib/float21.glsl"
+
 layout(buffer_reference, scalar) readonly buffer Texels { uvec2 texel[]; };
 
-vec3 texelIrradiance(uvec2 words) { return vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x); }
+// In texels, from the middle of the first.
+vec2 placeOnAtlas(BakedLight baked, vec2 bakeUv) { return bakeUv * vec2(baked.lastTexel + 1) - 0.5; }
 
-// Bilinear, W/m^2.
-vec3 atlasIrradiance(BakedLight baked, vec2 bakeUv)
+// Bilinear, W/m^2. No chart reaches the page's rim, so that whole texels lie about every place on one; places elsewhere, as quads at the
+// rim of a triangle have them, find something.
+vec3 atlasIrradiance(BakedLight baked, vec2 place)
 {
-    vec2 place = clamp(bakeUv * vec2(baked.lastTexel + 1) - 0.5, vec2(0.0), vec2(baked.lastTexel));
-    ivec2 low = ivec2(place), high = min(low + 1, baked.lastTexel);
-    vec2 part = place - vec2(low);
-    int width = baked.lastTexel.x + 1;
+    uint width = uint(baked.lastTexel.x) + 1u, last = width * uint(baked.lastTexel.y) - 2u;
+    uvec2 low = uvec2(max(ivec2(place), 0));
+    uint first = min(low.y * width + low.x, last);
+    vec2 part = fract(place);
     Texels texels = Texels(baked.texels);
-    uvec2 lowLow = texels.texel[low.y * width + low.x], lowHigh = texels.texel[low.y * width + high.x];
-    uvec2 highLow = texels.texel[high.y * width + low.x], highHigh = texels.texel[high.y * width + high.x];
-    return mix(mix(texelIrradiance(lowLow), texelIrradiance(lowHigh), part.x),
-               mix(texelIrradiance(highLow), texelIrradiance(highHigh), part.x), part.y);
+    uvec2 lowLow = texels.texel[first], lowHigh = texels.texel[first + 1u];
+    uvec2 highLow = texels.texel[first + width], highHigh = texels.texel[first + width + 1u];
+    return mix(mix(unpackFloats21(lowLow), unpackFloats21(lowHigh), part.x),
+               mix(unpackFloats21(highLow), unpackFloats21(highHigh), part.x), part.y);
 }
 
 #endif

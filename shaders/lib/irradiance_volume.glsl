@@ -1,72 +1,90 @@
-// The light that comes in at a place, from the cells about it that are open. Needs shared/frame.h.
+// The light that comes in at a place, from the cells about it that are open, and beyond them from the environment. Needs shared/frame.h.
 #ifndef LIB_IRRADIANCE_VOLUME_GLSL
 #define LIB_IRRADIANCE_VOLUME_GLSL
 
-#extension GL_KHR_shader_subgroup_quad : require
+#include "lib/quad.glsl"
+#include "lib/sh.glsl"
 #include "shared/prt.h"
 
 layout(buffer_reference, scalar) readonly buffer Cells { CellBlock cell[]; };
 
-const float kOffSurface = 0.3; // cells along the normal, where those behind the surface count for less
-const uint kOpenness = 2u * kCellWords - 1u; // of a cell's values
+const uint kOpenness = 27u; // of a cell's values
 
 // In cells from the first one.
-vec3 placeInVolume(BakedLight baked, vec3 positionWorld, vec3 normal)
+vec3 placeInVolume(BakedLight baked, vec3 positionWorld) { return (positionWorld - baked.origin) * baked.cellsPerMetre; }
+
+// 0 inside the outermost cells, 1 from one cell beyond them on: there the environment shines as it is.
+float shareOutside(BakedLight baked, vec3 place)
 {
-    vec3 place = (positionWorld - baked.origin) * baked.cellsPerMetre + kOffSurface * normal;
-    return clamp(place, vec3(0.0), vec3(baked.lastCell));
+    vec3 beyond = max(-place, place - vec3(baked.lastCell)) - 0.5;
+    return clamp(max(beyond.x, max(beyond.y, beyond.z)), 0.0, 1.0);
 }
 
-// Adds the values of a cell about `place` with its trilinear weight; bits of `corner` say on which side it lies.
-void addCell(BakedLight baked, vec3 place, uint corner, inout float values[2 * kCellWords])
+// Adds the values in the first `wordCount` words of a cell about `place` with its trilinear weight; bits of `corner` say on which side
+// it lies.
+void addCell(BakedLight baked, vec3 place, uint corner, uint wordCount, inout float values[2 * kCellWords])
 {
     ivec3 side = ivec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
     ivec3 lowest = ivec3(place), at = min(lowest + side, baked.lastCell);
     vec3 share = 1.0 - abs(vec3(lowest + side) - place);
     float weight = share.x * share.y * share.z;
     CellBlock cell = Cells(baked.cells).cell[(at.z * (baked.lastCell.y + 1) + at.y) * (baked.lastCell.x + 1) + at.x];
-    for (uint i = 0u; i < kCellWords; ++i) {
+    for (uint i = 0u; i < wordCount; ++i) {
         vec2 pair = unpackHalf2x16(cell.halves[i]);
         values[2u * i] += weight * pair.x;
         values[2u * i + 1u] += weight * pair.y;
     }
 }
 
-void spread(float values[2 * kCellWords], out vec3 radiance[9])
-{
-    float whole = 1.0 / max(values[kOpenness], 1.0e-6); // where nothing is open, nothing was added
-    for (int j = 0; j < 9; ++j)
-        radiance[j] = vec3(values[3 * j], values[3 * j + 1], values[3 * j + 2]) * whole;
-}
+vec3 coefficientAt(float values[2 * kCellWords], uint first) { return vec3(values[first], values[first + 1u], values[first + 2u]); }
 
-// Three bands, W/(m^2 sr); zero where all cells about the place are closed.
-void localRadiance(BakedLight baked, vec3 positionWorld, vec3 normal, out vec3 radiance[9])
+// What sums over cells are to be multiplied by, of that openness. Where nothing is open, nothing was added: what lies within walls is dark.
+float wholeOver(float openness, float outside) { return (1.0 - outside) / max(openness * (1.0 - outside) + outside, 1.0e-6); }
+
+// How much the environment counts there.
+float wholeOutside(float openness, float outside) { return outside / max(openness * (1.0 - outside) + outside, 1.0e-6); }
+
+// The radiance that comes in, four bands, W/(m^2 sr).
+void localRadiance(BakedLight baked, vec3 positionWorld, out vec3 radiance[16])
 {
-    vec3 place = placeInVolume(baked, positionWorld, normal);
-    float values[2 * kCellWords];
+    vec3 place = placeInVolume(baked, positionWorld), inside = clamp(place, vec3(0.0), vec3(baked.lastCell));
+    float values[2 * kCellWords], outside = shareOutside(baked, place);
     for (uint i = 0u; i < 2u * kCellWords; ++i)
         values[i] = 0.0;
     for (uint corner = 0u; corner < 8u; ++corner)
-        addCell(baked, place, corner, values);
-    spread(values, radiance);
+        addCell(baked, inside, corner, kCellWords, values);
+    float whole = wholeOver(values[kOpenness], outside), beyond = wholeOutside(values[kOpenness], outside);
+    for (uint j = 0u; j < 16u; ++j)
+        radiance[j] = whole * coefficientAt(values, j < 9u ? 3u * j : 3u * j + 1u) + beyond * baked.outside[j];
 }
 
-// The same at the place of a quad's first fragment, by all four: each adds two cells. What comes in changes little from pixel to pixel,
-// and look-ups cost CPU devices most. Helper invocations take part, discarded ones may not.
-void localRadianceOfQuad(BakedLight baked, vec3 positionWorld, vec3 normal, out vec3 radiance[9])
+// The irradiance of a surface there that faces `normal`, W/m^2: of three bands, in the middle of a quad's fragments, by all four: each adds
+// two cells. What comes in changes little from pixel to pixel, and look-ups cost CPU devices most.
+vec3 localIrradianceOfQuad(BakedLight baked, vec3 positionWorld, vec3 normal, bool isHelper)
 {
-    vec3 place = subgroupQuadBroadcast(placeInVolume(baked, positionWorld, normal), 0u);
-    float values[2 * kCellWords];
+    vec3 place = meanOverQuad(placeInVolume(baked, positionWorld), isHelper), inside = clamp(place, vec3(0.0), vec3(baked.lastCell));
+    float values[2 * kCellWords], outside = shareOutside(baked, place);
     for (uint i = 0u; i < 2u * kCellWords; ++i)
         values[i] = 0.0;
     uint corner = gl_SubgroupInvocationID & 3u;
-    addCell(baked, place, corner, values);
-    addCell(baked, place, corner + 4u, values);
-    for (uint i = 0u; i < 2u * kCellWords; ++i) {
+    addCell(baked, inside, corner, kIrradianceWords, values);
+    addCell(baked, inside, corner + 4u, kIrradianceWords, values);
+    for (uint i = 0u; i < 2u * kIrradianceWords; ++i) {
         values[i] += subgroupQuadSwapHorizontal(values[i]);
         values[i] += subgroupQuadSwapVertical(values[i]);
     }
-    spread(values, radiance);
+    vec3 radiance[9];
+    for (uint j = 0u; j < 9u; ++j)
+        radiance[j] = coefficientAt(values, 3u * j);
+    vec3 irradiance = wholeOver(values[kOpenness], outside) * irradianceOfSh3(radiance, normal);
+    // A loop that goes round for nobody is what spares CPU devices the work.
+    uint rounds = outside > 0.0 ? 1u : 0u;
+    for (uint i = 0u; i < rounds; ++i) {
+        for (uint j = 0u; j < 9u; ++j)
+            radiance[j] = baked.outside[j];
+        irradiance += wholeOutside(values[kOpenness], outside) * irradianceOfSh3(radiance, normal);
+    }
+    return irradiance;
 }
 
 #endif

@@ -16,6 +16,23 @@ void shBasis3(vec3 d, out float y[9])
     y[8] = 0.5462742153 * (d.x * d.x - d.y * d.y);
 }
 
+// The first sixteen: four bands.
+void shBasis4(vec3 d, out float y[16])
+{
+    float three[9];
+    shBasis3(d, three);
+    for (int i = 0; i < 9; ++i)
+        y[i] = three[i];
+    float xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z;
+    y[9] = 0.5900435899 * d.y * (3.0 * xx - yy);
+    y[10] = 2.8906114426 * d.x * d.y * d.z;
+    y[11] = 0.4570457995 * d.y * (5.0 * zz - 1.0);
+    y[12] = 0.3731763326 * d.z * (5.0 * zz - 3.0);
+    y[13] = 0.4570457995 * d.x * (5.0 * zz - 1.0);
+    y[14] = 1.4453057213 * d.z * (xx - yy);
+    y[15] = 0.5900435899 * d.x * (xx - 3.0 * yy);
+}
+
 vec3 evaluateSh3(vec3 coefficients[9], vec3 d)
 {
     float y[9];

@@ -3,16 +3,18 @@
 #define SHARED_FRAME_H
 
 const uint kMostShCoefficients = 25u; // 5 bands
+const uint kLocalShCoefficients = 16u; // of light that comes in inside: 4 bands
 
 struct BakedLight
 {
-    uint64_t texels; // uvec2[]: irradiance over the atlas, W/m^2, three halves
+    uint64_t texels; // uvec2[]: irradiance over the atlas, W/m^2, as in lib/float21.glsl
     uint64_t cells; // CellBlock[], x fastest, then y, then z
     vec3 origin; // of the first cell; world
     vec3 cellsPerMetre;
     ivec3 lastCell;
     ivec2 lastTexel;
-    uint padding;
+    vec3 outside[kLocalShCoefficients]; // what comes in beyond the cells: the environment's radiance in the bake's bands, W/(m^2 sr)
+    vec3 sentOn; // share of the irradiance on them that surfaces which hide light send to what they hide it from
 };
 
 struct FrameBlock

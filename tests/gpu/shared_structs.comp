@@ -94,7 +94,9 @@ void echo(FrameBlock b)
     put(b.baked.cellsPerMetre);
     put(b.baked.lastCell);
     put(b.baked.lastTexel);
-    put(b.baked.padding);
+    for (int i = 0; i < b.baked.outside.length(); ++i)
+        put(b.baked.outside[i]);
+    put(b.baked.sentOn);
 }
 
 #elif defined(GBUFFER_DRAW)

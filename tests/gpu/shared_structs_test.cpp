@@ -53,7 +53,7 @@ TEST_F(SharedStructs, FrameBlock)
     expectSameLayout<shader::FrameBlock>("FRAME_BLOCK", [](const auto& b) {
         return wordsOf(b.clipFromWorld, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentRotation,
                        b.environmentIntensity, b.radianceSh, b.irradianceSh, b.baked.texels, b.baked.cells, b.baked.origin,
-                       b.baked.cellsPerMetre, b.baked.lastCell, b.baked.lastTexel, b.baked.padding);
+                       b.baked.cellsPerMetre, b.baked.lastCell, b.baked.lastTexel, b.baked.outside, b.baked.sentOn);
     });
 }
 

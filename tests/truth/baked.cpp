@@ -11,6 +11,10 @@ namespace {
 using scene::MeshKind;
 
 constexpr float kGroundMetres = 6;
+const uvec2 kPage{16, 12};
+
+/// Of -0.5..0.5, with a texel of the page left free all around, as charts leave it.
+vec2 onPage(vec2 place) { return (1.0f + (place + 0.5f) * vec2(kPage - 2u)) / vec2(kPage); }
 
 void chart(ecs::World& world, ecs::Schedule&)
 {
@@ -20,17 +24,17 @@ void chart(ecs::World& world, ecs::Schedule&)
     for (const bake::AtlasObject& object : statics.objects) {
         scene::Mesh& mesh = atlas.meshes.emplace_back(object.model->mesh);
         for (const vec3& position : mesh.positions)
-            mesh.bakeUvs.emplace_back(position.x + 0.5f, position.z + 0.5f);
+            mesh.bakeUvs.push_back(onPage(vec2(position.x, position.z)));
     }
     bake::drawCharted(world, assets, statics, std::move(atlas));
 }
 
 bake::Bake emptyBake(uint32_t bands)
 {
-    bake::Bake bake{.settings = {.bands = bands}};
+    bake::Bake bake{.settings = {.bands = bands, .bounces = 0}};
     const size_t coefficients = bake.settings.coefficientCount();
-    bake.atlas.extent = {16, 12};
-    bake.atlas.planes.resize(coefficients * 3 * 16 * 12);
+    bake.atlas.extent = kPage;
+    bake.atlas.planes.resize(coefficients * 3 * kPage.x * kPage.y);
     bake.volume.grid = {.origin = {-3.4f, -0.3f, -3.6f}, .spacing = {1.7f, 0.9f, 1.4f}, .count = {5, 4, 6}};
     const size_t cells = bake.volume.grid.cellCount();
     bake.volume.planes.resize(bake::kLocalCoefficients * coefficients * 3 * cells);
@@ -51,12 +55,19 @@ scene::SceneFile bakedGround()
 
 } // namespace
 
-ShownGround::ShownGround(gpu::Device& device, const bake::Bake* bake) : Shown(device, bakedGround(), Shown::kExtent, 0.3f, chart)
+ShownGround::ShownGround(gpu::Device& device, const bake::Bake* bake)
+    : Shown(device, bakedGround(), Shown::kExtent, 0.3f, chart), bake_(bake)
 {
     view().bake = bake;
 }
 
-vec2 groundUv(vec3 position) { return vec2(position.x, position.z) / kGroundMetres + 0.5f; }
+void ShownGround::advance(float seconds)
+{
+    Shown::advance(seconds);
+    view().bake = bake_;
+}
+
+vec2 groundUv(vec3 position) { return onPage(vec2(position.x, position.z) / kGroundMetres); }
 
 bake::Bake bakeOf(uint32_t bands, const Transport& transport)
 {

@@ -9,13 +9,18 @@
 
 namespace antumbra::truth {
 
-/// A walker and a sphere on a ground that is StaticPRT, 6 m wide about the origin, under a low sun. The ground's bakeUvs are 0..1 over it,
-/// x along u and z along v.
+/// A walker and a sphere on a ground that is StaticPRT, 6 m wide about the origin, under a low sun. The ground covers the page but for a
+/// texel all around, x along u and z along v.
 class ShownGround : public Shown
 {
 public:
     /// `bake` must outlive it; null: nothing is baked.
     ShownGround(gpu::Device& device, const bake::Bake* bake);
+
+    void advance(float seconds);
+
+private:
+    const bake::Bake* bake_;
 };
 vec2 groundUv(vec3 position);
 

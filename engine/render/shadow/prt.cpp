@@ -12,7 +12,7 @@ namespace {
 using graph::Use;
 
 constexpr uint32_t kRows = bake::kLocalCoefficients;
-static_assert(kRows * 3 + 1 == 2 * shader::kCellWords);
+static_assert(kRows * 3 + 2 == 2 * shader::kCellWords); // openness, and one unused
 
 void checkWhole(const bake::Bake& bake)
 {
@@ -40,7 +40,7 @@ std::vector<shader::CellBlock> cellsOf(const bake::IrradianceVolume& volume)
 {
     std::vector<shader::CellBlock> cells(volume.isOpen.size());
     for (size_t i = 0; i < cells.size(); ++i)
-        cells[i].halves[shader::kCellWords - 1] = uint32_t{glm::packHalf1x16(volume.isOpen[i] != 0 ? 1.0f : 0.0f)} << 16;
+        cells[i].halves[shader::kIrradianceWords - 1] = uint32_t{glm::packHalf1x16(volume.isOpen[i] != 0 ? 1.0f : 0.0f)} << 16;
     return cells;
 }
 
@@ -110,7 +110,7 @@ void PrtSystem::declareVolume(graph::FrameGraph& graph, uint32_t frame, Baked& b
                                                 .frame = frame,
                                                 .coefficientCount = held_->bake->settings.coefficientCount(),
                                                 .cellCount = cellCount},
-                          {cellCount, (kRows + 1) / 2}, {64, 1});
+                          {cellCount, (kRows + 2) / 2}, {64, 1});
     });
 }
 
