@@ -10,6 +10,7 @@
 #include "lib/cone.glsl"
 #include "lib/intersect.glsl"
 #include "lib/compose.glsl"
+#include "lib/float21.glsl"
 #include "lib/tone.glsl"
 
 #ifdef ARC_SINE
@@ -66,13 +67,19 @@ Out evaluate(In x) { return Out(cosineHammersley(x.i, x.count, 0.5)); }
 #elif defined(SH_BASIS)
 
 struct In { vec3 direction; };
-struct Out { float basis[9]; };
+struct Out { float basis[16]; };
 Out evaluate(In x)
 {
     Out result;
-    shBasis3(x.direction, result.basis);
+    shBasis4(x.direction, result.basis);
     return result;
 }
+
+#elif defined(FLOATS_21)
+
+struct In { vec3 value; };
+struct Out { vec3 value; };
+Out evaluate(In x) { return Out(unpackFloats21(packFloats21(x.value))); }
 
 #elif defined(RAY_ORIGIN)
 

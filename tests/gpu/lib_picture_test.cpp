@@ -1,4 +1,4 @@
-// shaders/lib/surface.glsl, compose.glsl and tone.glsl on the device: what must hold of every pixel.
+// shaders/lib/surface.glsl, compose.glsl, tone.glsl and float21.glsl on the device: what must hold of every pixel.
 #include "gpu/device_fixture.h"
 #include "gpu/kernel.h"
 #include "gpu/random_inputs.h"
@@ -113,6 +113,18 @@ TEST_F(LibPicture, ToneMappingIsFinite)
     for (const ToneOut& out : runKernel<ToneOut>(device(), kKernel, "TONE", inputs))
         for (int c = 0; c < 3; ++c)
             EXPECT_TRUE(std::isfinite(out.mapped[c]) && std::isfinite(out.encoded[c]));
+}
+
+TEST_F(LibPicture, Floats21KeepTwelveBits)
+{
+    RandomInputs random(17);
+    std::vector<vec3> inputs{vec3(0), vec3(65504), vec3(-65504, 1e-30f, -0.0f), vec3(1, 2, 3)};
+    while (inputs.size() < kCount)
+        inputs.emplace_back(random.direction() * random.logUniform(1e-6, 6e4));
+    const std::vector<vec3> outputs = runKernel<vec3>(device(), kKernel, "FLOATS_21", inputs);
+    for (size_t i = 0; i < inputs.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_LE(std::abs(outputs[i][c] - inputs[i][c]), 1.3e-4f * std::abs(inputs[i][c])) << i << ' ' << c;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <unistd.h>
@@ -13,6 +14,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class ProgramTest : public testing::Test
 {
@@ -65,6 +67,27 @@ TEST_F(ProgramTest, ReplaysToTheSameBytesTwiceAndWithAnyNumberOfThreads)
     EXPECT_THAT(first.first, HasSubstr("after 60 steps"));
     EXPECT_EQ(playWalk("2"), first);
     EXPECT_EQ(playWalk("1"), first);
+}
+
+TEST_F(ProgramTest, TheAtriumPlaysByItsBakeAndItsLightTurns)
+{
+    const Path script = folder_ / "turn.jsonl", stats = projectPath("out") / "stats.json";
+    writeText(script, "{\"script\": 1, \"seed\": 1, \"frames\": 12}\n{\"frame\": 2, \"rotate_environment\": 1}\n");
+    const Result result = run({"play", "atrium", "--headless", "--size", "192x108", "--script", script});
+    if (result.code == static_cast<int>(ExitCode::NoDevice)) {
+        ASSERT_EQ(std::getenv("ANTUMBRA_REQUIRE_DEVICE"), nullptr) << "no Vulkan device";
+        GTEST_SKIP() << "no Vulkan device";
+    }
+    ASSERT_EQ(result.code, 0) << result.output;
+    EXPECT_THAT(result.output, Not(HasSubstr("without bake")));
+    const nlohmann::json played = nlohmann::json::parse(readText(stats));
+    for (const char* counter : {"nan_pixels", "inf_pixels", "negative_pixels"})
+        EXPECT_EQ(played["counters"][counter], 0) << counter;
+    for (const char* name : {"prt relight", "volume relight"}) {
+        const auto pass = std::ranges::find_if(played["passes"], [&](const auto& each) { return each["name"] == name; });
+        ASSERT_NE(pass, played["passes"].end()) << name;
+        EXPECT_FALSE((*pass)["culled"]) << name;
+    }
 }
 
 TEST_F(ProgramTest, ABadScriptEndsInOneLineThatNamesIt)

@@ -74,6 +74,15 @@ a_death_ends_all_and_keeps_what_is_done()
     [[ ! -e killed.exr.partial ]] || fail "the partial file stays"
 }
 
+# The line that the baker ends with: "... 173 MiB of memory at the peak, 195 MiB estimated".
+the_peak_is_within_a_fifth_of_the_estimate()
+{
+    local peak estimated
+    "$bake" hall.json --set prt.density=4 --set prt.rays=64 --set prt.cell_rays=64 --output memory.exr | tee memory.log
+    read -r peak estimated < <(sed -nE 's/.* ([0-9]+) MiB of memory at the peak, ([0-9]+) MiB estimated.*/\1 \2/p' memory.log)
+    ((10 * peak <= 12 * estimated)) || fail "it takes $peak MiB and said $estimated"
+}
+
 one_line_for_all()
 {
     local code=0
@@ -85,4 +94,5 @@ one_line_for_all()
 
 same_bytes_from_any_number
 a_death_ends_all_and_keeps_what_is_done
+the_peak_is_within_a_fifth_of_the_estimate
 one_line_for_all
