@@ -3,6 +3,7 @@
 #include "bake/charts.h"
 
 #include "bake/overlap.h"
+#include "base/bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -21,18 +22,6 @@ std::array<vec3, 2> planeAcross(vec3 axis)
     const float b = axis.x * axis.y * a;
     return {vec3{1.0f + sign * axis.x * axis.x * a, sign * b, -sign * axis.x}, vec3{b, sign + axis.y * axis.y * a, -axis.y}};
 }
-
-struct Box
-{
-    vec2 lowest{std::numeric_limits<float>::max()};
-    vec2 highest{std::numeric_limits<float>::lowest()};
-
-    void add(vec2 point)
-    {
-        lowest = glm::min(lowest, point);
-        highest = glm::max(highest, point);
-    }
-};
 
 float areaOf(const Surface& surface, uint32_t triangle)
 {
@@ -70,7 +59,7 @@ struct TurnedBox
 TurnedBox boxAlong(const std::vector<vec2>& hull, vec2 right)
 {
     const vec2 up(-right.y, right.x);
-    Box box;
+    Rect box;
     for (const vec2 point : hull)
         box.add({glm::dot(point, right), glm::dot(point, up)});
     return {right, box.lowest, box.highest - box.lowest};
@@ -119,7 +108,7 @@ private:
     /// Where a region meets itself, charts of half its turn are cut, so that their ends do not even come near each other.
     void cut(const Region& region, std::vector<Chart>& charts)
     {
-        const Box box = project(region);
+        const Rect box = project(region);
         size_t most = region.triangles.size();
         for (const uint32_t first : region.triangles) {
             if (isCharted_[first])
@@ -135,10 +124,10 @@ private:
         }
     }
 
-    Box project(const Region& region)
+    Rect project(const Region& region)
     {
         const auto [u, v] = planeAcross(region.axis);
-        Box box;
+        Rect box;
         for (const uint32_t triangle : region.triangles)
             for (size_t corner = 0; corner < 3; ++corner) {
                 const vec3 position = surface_.positions[surface_.indices[size_t{3} * triangle + corner]];
@@ -149,7 +138,7 @@ private:
     }
 
     /// Breadth first over triangles of no chart yet, around those that would overlap; connected, wherever it ends.
-    Walk walkFrom(uint32_t first, const Box& box, size_t most)
+    Walk walkFrom(uint32_t first, const Rect& box, size_t most)
     {
         FlatTriangles taken(box.lowest, box.highest, most);
         taken.add(projected_[first]);

@@ -33,6 +33,20 @@ struct Aabb
     }
 };
 
+/// The same of the plane.
+struct Rect
+{
+    vec2 lowest{std::numeric_limits<float>::max()};
+    vec2 highest{std::numeric_limits<float>::lowest()};
+
+    void add(vec2 point)
+    {
+        lowest = glm::min(lowest, point);
+        highest = glm::max(highest, point);
+    }
+    [[nodiscard]] vec2 extent() const { return highest - lowest; }
+};
+
 struct Sphere
 {
     vec3 centre{0};

@@ -2,12 +2,12 @@
 
 #include "bake/charts.h"
 #include "bake/overlap.h"
+#include "base/bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
@@ -21,19 +21,6 @@ constexpr uint32_t kGutter = 2;
 constexpr float kNarrow = 4;    // texels
 constexpr float kMostFine = 4;  // times the texels along a narrow side
 constexpr float kRim = 1.0e-3f; // texels that rounding may take
-
-struct Box
-{
-    vec2 lowest{std::numeric_limits<float>::max()};
-    vec2 highest{std::numeric_limits<float>::lowest()};
-
-    void add(vec2 point)
-    {
-        lowest = glm::min(lowest, point);
-        highest = glm::max(highest, point);
-    }
-    [[nodiscard]] vec2 extent() const { return highest - lowest; }
-};
 
 FlatTriangle onPage(const Atlas& atlas, const Mesh& mesh, size_t triangle)
 {
@@ -169,7 +156,7 @@ double expectSound(const Atlas& atlas, size_t objectCount, const AtlasSettings& 
 Densities densities(const Atlas& atlas, const Mesh& mesh, const mat4& world)
 {
     const std::vector<uint32_t> charts = chartOfTriangles(mesh);
-    std::vector<Box> boxes(charts.size()); // of the page, texels; by the first triangle of a chart
+    std::vector<Rect> boxes(charts.size()); // of the page, texels; by the first triangle of a chart
     for (size_t i = 0; i < charts.size(); ++i)
         for (const vec2 corner : onPage(atlas, mesh, i))
             boxes[charts[i]].add(corner);
