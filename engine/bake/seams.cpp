@@ -12,7 +12,7 @@ namespace {
 // As smooth as a surface must be for light to go on over an edge: cosines.
 constexpr float kSmoothShading = 0.999f;
 constexpr float kSmoothGeometry = 0.9f;
-constexpr float kPointsPerTexel1D = 2;
+constexpr float kPointsPerTexelLength = 2;
 constexpr uint32_t kMostPointsAnEdge = 64;
 
 /// One side of an edge: its ends as one triangle has them.
@@ -90,7 +90,7 @@ void addPoints(const StaticScene& scene, const Side& a, const Side& b, std::vect
     if (fromA == fromB && toA == toB)
         return;
     const float texels = std::max(glm::length((toA - fromA) * extent), glm::length((toB - fromB) * extent));
-    const uint32_t count = 2 + std::min(static_cast<uint32_t>(kPointsPerTexel1D * texels), kMostPointsAnEdge);
+    const uint32_t count = 2 + std::min(static_cast<uint32_t>(kPointsPerTexelLength * texels), kMostPointsAnEdge);
     for (uint32_t i = 0; i < count; ++i) {
         const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
         points.push_back({glm::mix(fromA, toA, share), glm::mix(fromB, toB, share)});

@@ -39,10 +39,10 @@ void addCell(BakedLight baked, vec3 place, uint corner, uint wordCount, inout fl
 vec3 coefficientAt(float values[2 * kCellWords], uint first) { return vec3(values[first], values[first + 1u], values[first + 2u]); }
 
 // What sums over cells are to be multiplied by, of that openness. Where nothing is open, nothing was added: what lies within walls is dark.
-float wholeOver(float openness, float outside) { return (1.0 - outside) / max(openness * (1.0 - outside) + outside, 1.0e-6); }
+float weightOfCells(float openness, float outside) { return (1.0 - outside) / max(openness * (1.0 - outside) + outside, 1.0e-6); }
 
-// How much the environment counts there.
-float wholeOutside(float openness, float outside) { return outside / max(openness * (1.0 - outside) + outside, 1.0e-6); }
+// And the environment.
+float weightOfEnvironment(float openness, float outside) { return outside / max(openness * (1.0 - outside) + outside, 1.0e-6); }
 
 // The radiance that comes in, four bands, W/(m^2 sr).
 void localRadiance(BakedLight baked, vec3 positionWorld, out vec3 radiance[16])
@@ -53,7 +53,7 @@ void localRadiance(BakedLight baked, vec3 positionWorld, out vec3 radiance[16])
         values[i] = 0.0;
     for (uint corner = 0u; corner < 8u; ++corner)
         addCell(baked, inside, corner, kCellWords, values);
-    float whole = wholeOver(values[kOpenness], outside), beyond = wholeOutside(values[kOpenness], outside);
+    float whole = weightOfCells(values[kOpenness], outside), beyond = weightOfEnvironment(values[kOpenness], outside);
     for (uint j = 0u; j < 16u; ++j)
         radiance[j] = whole * coefficientAt(values, j < 9u ? 3u * j : 3u * j + 1u) + beyond * baked.outside[j];
 }
@@ -76,13 +76,13 @@ vec3 localIrradianceOfQuad(BakedLight baked, vec3 positionWorld, vec3 normal, bo
     vec3 radiance[9];
     for (uint j = 0u; j < 9u; ++j)
         radiance[j] = coefficientAt(values, 3u * j);
-    vec3 irradiance = wholeOver(values[kOpenness], outside) * irradianceOfSh3(radiance, normal);
+    vec3 irradiance = weightOfCells(values[kOpenness], outside) * irradianceOfSh3(radiance, normal);
     // A loop that goes round for nobody is what spares CPU devices the work.
     uint rounds = outside > 0.0 ? 1u : 0u;
     for (uint i = 0u; i < rounds; ++i) {
         for (uint j = 0u; j < 9u; ++j)
             radiance[j] = baked.outside[j];
-        irradiance += wholeOutside(values[kOpenness], outside) * irradianceOfSh3(radiance, normal);
+        irradiance += weightOfEnvironment(values[kOpenness], outside) * irradianceOfSh3(radiance, normal);
     }
     return irradiance;
 }

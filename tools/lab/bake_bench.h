@@ -30,7 +30,7 @@ public:
 
 private:
     BakeBench(const app::SweepPoint& point, const scene::SceneFile& scene);
-    void measureShare(Samples& samples) const;
+    void addShare(Samples& samples) const;
 
     app::SweepPoint point_;
     render::Knobs knobs_;

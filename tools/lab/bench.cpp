@@ -1,16 +1,14 @@
 #include "tools/lab/bench.h"
 
 #include "app/playback.h"
+#include "tools/lab/stopwatch.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 namespace antumbra::lab {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr float kStirSeconds = 1e-3f; // to and fro: every frame has another pose, and none is far from the point's time
 constexpr float kTurnRadians = 1e-3f; // so does the light
@@ -71,9 +69,7 @@ void Bench::advance(float seconds)
 
 double Bench::draw()
 {
-    const Clock::time_point start = Clock::now();
-    renderer_.render(view_);
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return millisecondsOf([&] { renderer_.render(view_); });
 }
 
 double Bench::warmUp(const app::SweepPoint& point, uint32_t frames)

@@ -1,7 +1,8 @@
 #include "tools/lab/embree_alone.h"
 
+#include "tools/lab/stopwatch.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <limits>
 
@@ -41,14 +42,13 @@ void EmbreeAlone::add(vec3 origin, const bake::DirectionPacket& directions, bake
 
 double EmbreeAlone::trace()
 {
-    using Clock = std::chrono::steady_clock;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    const Clock::time_point start = Clock::now();
-    for (Packet& packet : packets_)
-        rtcIntersect16(packet.valid, scene_.get(), &context, &packet.rays);
-    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const double milliseconds = millisecondsOf([&] {
+        for (Packet& packet : packets_)
+            rtcIntersect16(packet.valid, scene_.get(), &context, &packet.rays);
+    });
     packets_.clear();
     return milliseconds;
 }
