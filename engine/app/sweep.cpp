@@ -85,12 +85,13 @@ std::vector<SweepPoint> expand(const SweepPoint& point, const Grid& grid, const 
 
 void readFrames(const JsonObject& object, SweepPoint& point)
 {
-    object.allowOnly({"name", "scene", "reference", "settings", "grid"}, {"size", "time", "frames", "animate", "turn"});
+    object.allowOnly({"name", "scene", "reference", "settings", "grid"}, {"size", "time", "frames", "animate", "turn", "characters"});
     point.size = uvec2(object.vector("size", vec2(point.size), {16, 8192}));
     point.seconds = object.number("time", point.seconds, {0, 1e6f});
     point.frames = static_cast<uint32_t>(object.integer("frames", static_cast<int32_t>(point.frames), {1, 10'000}));
     point.animates = object.flag("animate", point.animates);
     point.turnsLight = object.flag("turn", point.turnsLight);
+    point.hasCharacters = object.flag("characters", point.hasCharacters);
 }
 
 void readBake(const JsonObject& object, SweepPoint& point)

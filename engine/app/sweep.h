@@ -27,6 +27,7 @@ struct SweepPoint
     uint32_t frames = 4;           // measured a round
     bool animates = true;          // every frame has a new pose, about `seconds`
     bool turnsLight = false;       // every frame has another light
+    bool hasCharacters = true;     // else only what stands still is drawn
     uint32_t referenceSamples = 0; // that the error is measured against, of a bake: paths a point of the surface; 0: it is not
     BakeTruth truth = BakeTruth::Bands;
     render::Settings settings; // over the device's defaults and the scene's own
@@ -42,9 +43,9 @@ struct Sweep
 };
 
 /// {"name", "measure":"frames"|"bakes", "repeats", "warmup", "grid", "points":[{"name", "scene", "size":[w,h], "time", "frames", "animate",
-/// "turn", "reference", "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a point stands for every combination of its grid, or of the
-/// sweep's where it has none of its own. A point that is a bake has "truth":"bands"|"map" in place of all that frames have, and knobs of
-/// baking alone. Throws Error of one line for unknown keys, with the nearest known, wrong types and values out of range.
+/// "turn", "characters", "reference", "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a point stands for every combination of its
+/// grid, or of the sweep's where it has none of its own. A point that is a bake has "truth":"bands"|"map" in place of all that frames have,
+/// and knobs of baking alone. Throws Error of one line for unknown keys, with the nearest known, wrong types and values out of range.
 Sweep loadSweep(const Path& file);
 
 } // namespace antumbra::app

@@ -18,7 +18,7 @@ vec3 meanOf(const Image8& image)
     glm::dvec3 sum{0};
     for (size_t i = 0; i + 3 < image.rgba.size(); i += 4)
         sum += glm::dvec3(decoded[image.rgba[i]], decoded[image.rgba[i + 1]], decoded[image.rgba[i + 2]]);
-    return vec3(sum / std::max(static_cast<double>(image.rgba.size() / 4), 1.0));
+    return vec3(sum / static_cast<double>(std::max<size_t>(image.rgba.size() / 4, 1)));
 }
 
 } // namespace

@@ -45,7 +45,7 @@ std::vector<std::string> namesOf(const Sweep& sweep)
 TEST(Sweep, APointIsReadWhole)
 {
     const Sweep sweep = sweepOf(R"({"name": "s", "repeats": 7, "warmup": 2, "points": [{"name": "p", "scene": "plaza", "size": [320, 180],
-        "time": 0.5, "frames": 9, "animate": false, "reference": 4096, "settings": {"occlusion.samples": 64}}]})");
+        "time": 0.5, "frames": 9, "animate": false, "characters": false, "reference": 4096, "settings": {"occlusion.samples": 64}}]})");
     EXPECT_EQ(sweep.name, "s");
     EXPECT_EQ(sweep.repeats, 7u);
     EXPECT_EQ(sweep.warmUp, 2u);
@@ -56,6 +56,7 @@ TEST(Sweep, APointIsReadWhole)
     EXPECT_EQ(point.seconds, 0.5f);
     EXPECT_EQ(point.frames, 9u);
     EXPECT_FALSE(point.animates);
+    EXPECT_FALSE(point.hasCharacters);
     EXPECT_EQ(point.referenceSamples, 4096u);
     EXPECT_EQ(point.settings, (render::Settings{{"occlusion.samples", "64"}}));
 }

@@ -51,7 +51,8 @@ Bench::Bench(gpu::Device& device, const app::SweepPoint& point)
 
 bool Bench::fits(const app::SweepPoint& point) const
 {
-    return point.scene == point_.scene && point.size == point_.size && point.seconds == point_.seconds && crowdOf(point) == crowdOf(point_);
+    return point.scene == point_.scene && point.size == point_.size && point.seconds == point_.seconds &&
+           point.hasCharacters == point_.hasCharacters && crowdOf(point) == crowdOf(point_);
 }
 
 render::Knobs Bench::resolve(const app::SweepPoint& point) const
@@ -65,6 +66,8 @@ void Bench::advance(float seconds)
 {
     stage_.advanceClips(seconds);
     stage_.extract(view_);
+    if (!point_.hasCharacters)
+        view_.characters.clear();
 }
 
 double Bench::draw()

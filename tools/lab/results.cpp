@@ -85,6 +85,7 @@ Json identityOf(const Row& row)
             {"time", point.seconds},
             {"animate", point.animates},
             {"turn", point.turnsLight},
+            {"characters", point.hasCharacters},
             {"reference", point.referenceSamples},
             {"truth", point.truth == app::BakeTruth::Map ? "map" : "bands"},
             {"knobs", knobsOf(row)}};
