@@ -12,7 +12,7 @@ namespace antumbra::bake {
 
 namespace {
 
-constexpr std::string_view kSignature = "antumbra partial bake 1\n";
+constexpr std::string_view kSignature = "antumbra partial bake 2\n";
 constexpr size_t kReadAtOnce = size_t{8} << 20; // bytes
 
 /// What a partial file is of, after the signature.

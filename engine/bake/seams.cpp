@@ -167,6 +167,8 @@ private:
 
     void relax(uint32_t unknown, const std::vector<float>& before, std::vector<float>& residuals)
     {
+        // Against the squares of bilinear weights, of some tenths: so soft that seams close, and that texels no seam reads much of stay.
+        // What lies beyond its chart was made up, and gives way first.
         constexpr float kHold = 0.02f, kHoldBeyond = 0.002f;
         const bool isBeyond = map_.texels[places_[unknown]] != sources_[places_[unknown]];
         const float hold = isBeyond ? kHoldBeyond : kHold;

@@ -150,6 +150,8 @@ TEST_F(BakedCharacters, MeetPathTracingHoweverTheLightIsTurned)
     // Aimed at 0.05. What is left is in the method: path tracing that subtracts what characters hide from what would come in without them
     // is off by as much, for it misses their shadows in the light that the floor sends up.
     EXPECT_LE(error(Character), 0.055);
+    // Columns and railings, which have few texels; asked of nobody, and kept from growing.
+    EXPECT_LE(error(Elsewhere), 0.14);
 }
 
 } // namespace

@@ -201,8 +201,8 @@ TEST_F(BakeFileTest, AFlippedByteIsRefusedOrChangesNothing)
 TEST_F(BakeFileTest, AnotherVersionIsRefused)
 {
     saveBake(file_, randomBake());
-    rewrite([](std::vector<Part>& parts) { parts[0].spec["antumbra:version"] = 2; });
-    EXPECT_THAT(complaint(), HasSubstr("a bake of version 2, and this program reads version 1"));
+    rewrite([](std::vector<Part>& parts) { parts[0].spec["antumbra:version"] = 3; });
+    EXPECT_THAT(complaint(), HasSubstr("a bake of version 3, and this program reads version 2"));
 }
 
 TEST_F(BakeFileTest, ValuesThatAreNotFiniteAreRefused)

@@ -23,16 +23,22 @@ BakeLab::BakeLab(app::Sweep sweep, const Path& folder, bool resumes)
 
 bool BakeLab::run()
 {
-    bool isDone = true;
-    for (uint32_t round = 0; round < sweep_.repeats && isDone; ++round)
+    const bool isDone = measureAll();
+    record_.finish(kColumns);
+    return isDone;
+}
+
+bool BakeLab::measureAll()
+{
+    for (uint32_t round = 0; round < sweep_.repeats; ++round)
         for (Row& row : record_.results.rows) {
             if (row.rounds > round)
                 continue;
             progress_.tell(fmt::format("round {} of {}: {}", round + 1, sweep_.repeats, row.point.name));
-            isDone = isDone && measure(row);
+            if (!measure(row))
+                return false;
         }
-    record_.finish(kColumns);
-    return isDone;
+    return true;
 }
 
 bool BakeLab::measure(Row& row)

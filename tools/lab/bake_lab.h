@@ -17,6 +17,7 @@ public:
     bool run();
 
 private:
+    bool measureAll();
     bool measure(Row& row);
 
     app::Sweep sweep_;
