@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
 #include "shared/skinning.h"
+#include "shared/area.h"
 #include "shared/eval.h"
 #include "lib/cone.glsl"
 #include "lib/cone_merge.glsl"

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
+#include "shared/area.h"
 #include "shared/eval.h"
 #include "lib/hemisphere.glsl"
 #include "lib/sh.glsl"

@@ -24,15 +24,23 @@ double Comparison::rmse() const { return count_ > 0 ? std::sqrt(squares_ / stati
 
 ExitCode runEval(const EvalOptions& options)
 {
+    struct Kind
+    {
+        const char* name;
+        Evaluation (*evaluate)(gpu::Device&, const Path&);
+        const char* tolerance;
+    };
+    constexpr Kind kKinds[] = {{"cones", evaluateCones, "1e-4, relative"},
+                               {"irradiance", evaluateIrradiance, "1 % of max(E_unshadowed, 0.3), constant light 0.5 %"},
+                               {"area", evaluateArea, "each case's own"}};
+    const Kind& kind = kKinds[static_cast<size_t>(options.kind)];
     gpu::Device device({});
-    const bool isCones = options.kind == EvalKind::Cones;
-    const Evaluation evaluation = isCones ? evaluateCones(device, options.cases) : evaluateIrradiance(device, options.cases);
+    const Evaluation evaluation = kind.evaluate(device, options.cases);
     writeText(options.output, evaluation.results);
     const Comparison& comparison = evaluation.comparison;
-    fmt::print("{}: {} cases, {} compared, RMSE {:.3g}, worst {:.3g}{}, {} out of tolerance ({})\n", isCones ? "cones" : "irradiance",
-               evaluation.cases, comparison.count(), comparison.rmse(), comparison.worst(),
-               comparison.count() > 0 ? fmt::format(" ({})", comparison.worstId()) : "", comparison.outOfTolerance(),
-               isCones ? "1e-4, relative" : "1 % of max(E_unshadowed, 0.3), constant light 0.5 %");
+    fmt::print("{}: {} cases, {} compared, RMSE {:.3g}, worst {:.3g}{}, {} out of tolerance ({})\n", kind.name, evaluation.cases,
+               comparison.count(), comparison.rmse(), comparison.worst(),
+               comparison.count() > 0 ? fmt::format(" ({})", comparison.worstId()) : "", comparison.outOfTolerance(), kind.tolerance);
     return comparison.outOfTolerance() == 0 ? ExitCode::Done : ExitCode::CheckFailed;
 }
 

@@ -41,5 +41,7 @@ struct Evaluation
 Evaluation evaluateCones(gpu::Device& device, const Path& cases);
 /// By 4096 samples. The error is a share of max(unshadowed irradiance, 0.3), compared to 1 %, for constant light 0.5 %.
 Evaluation evaluateIrradiance(gpu::Device& device, const Path& cases);
+/// The error is that of the worse of both shares, compared to the case's own tolerance; 1 at least where a share leaves its range.
+Evaluation evaluateArea(gpu::Device& device, const Path& cases);
 
 } // namespace antumbra::app

@@ -69,7 +69,9 @@ EvalKind parseKind(const std::string& option, const std::string& text)
         return EvalKind::Cones;
     if (text == "irradiance")
         return EvalKind::Irradiance;
-    refuse(option, "cones or irradiance", text);
+    if (text == "area")
+        return EvalKind::Area;
+    refuse(option, "cones, irradiance or area", text);
 }
 
 std::pair<std::string, std::string> splitAtEquals(const std::string& option, std::string_view form, const std::string& text)
@@ -162,7 +164,7 @@ void addRender(CLI::App& command, RenderOptions& options)
 
 void addEval(CLI::App& command, EvalOptions& options)
 {
-    add(command, "kind", "KIND", options.kind, parseKind, "cones or irradiance")->required();
+    add(command, "kind", "KIND", options.kind, parseKind, "cones, irradiance or area")->required();
     add(command, "cases", "CASES", options.cases, asText, "the cases, as JSON")->required();
     add(command, "--output", "FILE", options.output, asText, "the results, as JSON")->required();
 }

@@ -50,7 +50,7 @@ struct RenderOptions
     std::optional<Path> stats;
 };
 
-enum class EvalKind { Cones, Irradiance };
+enum class EvalKind { Cones, Irradiance, Area };
 
 struct EvalOptions
 {

@@ -25,6 +25,8 @@ using uint = uint32_t;
 
 #include "shaders/shared/prt.h"
 
+#include "shaders/shared/area.h"
+
 #include "shaders/shared/eval.h"
 
 } // namespace antumbra::shader

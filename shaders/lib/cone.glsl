@@ -2,7 +2,7 @@
 #ifndef LIB_CONE_GLSL
 #define LIB_CONE_GLSL
 
-const float kHalfPi = 1.57079632679;
+#include "lib/angle.glsl"
 
 struct Cone
 {
@@ -13,17 +13,6 @@ struct Cone
     float height; // rays may end here
     bool all; // the apex lies inside: the whole hemisphere about n
 };
-
-// Radians for x in 0..1, to a few units in the last place; drivers may be off by 1e-4 and more. A fit of asin up to 1/2 (relative error
-// 2e-8) and the half-angle identity above it.
-float arcSine(float x)
-{
-    bool isWide = x > 0.5;
-    float s = isWide ? sqrt(0.5 - 0.5 * x) : x;
-    float t = s * s;
-    float angle = s + s * t * (0.166666724 + t * (0.0749885507 + t * (0.0450013801 + t * (0.0265545422 + t * 0.0380850236))));
-    return isWide ? kHalfPi - 2.0 * angle : angle;
-}
 
 // The half angle's sine and cosine are as good as their rounding where it is near nothing and near a right angle; a millionth off the
 // squared cosine is more than that rounding, so that no ray is dropped.

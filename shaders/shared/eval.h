@@ -62,4 +62,31 @@ struct EvalIrradiance
     uint sampleCount;
 };
 
+struct AreaCase
+{
+    vec3 position;
+    vec3 normal;
+    vec3 tangent; // the bitangent is cross(normal, tangent)
+    vec3 lobe[3]; // rows of M^-1, which takes (tangent, bitangent, normal) to the lobe's space
+    uint light; // into the bodies
+    uint firstOccluder;
+    uint occluderCount;
+};
+
+struct AreaAnswer
+{
+    float unoccluded;
+    float shadowed;
+    uint fallbacks;
+};
+
+struct EvalArea
+{
+    BodyArrays arrays;
+    uint64_t cases; // AreaCase[caseCount]
+    uint64_t answers; // AreaAnswer[caseCount], written
+    uint caseCount;
+    uint mostPieces;
+};
+
 #endif

@@ -9,6 +9,7 @@
 #include "shared/occlusion.h"
 #include "shared/bvh.h"
 #include "shared/composite.h"
+#include "shared/area.h"
 #include "shared/eval.h"
 #include "shared/prt.h"
 

@@ -1,0 +1,29 @@
+// One case of kind `area` (golden/README.md) as convex bodies: a light, what stands before it, and the lobe that receives it.
+#pragma once
+
+#include "app/eval_cases.h"
+#include "scene/convex_body.h"
+
+namespace antumbra::app {
+
+struct AreaOccluder
+{
+    scene::ConvexBody body;
+    bool isFrontOnly = false; // a triangle of a closed mesh
+};
+
+struct AreaProblem
+{
+    vec3 position{0};
+    vec3 normal{0, 0, 1};
+    vec3 tangent{1, 0, 0};
+    std::array<vec3, 3> lobe{}; // rows of M^-1, which takes (tangent, bitangent, normal) to the lobe's space
+    scene::ConvexBody light;
+    bool isTwoSided = false;
+    std::vector<AreaOccluder> occluders; // meshes that are not convex as their triangles
+};
+
+/// Throws Error that names the place in the file where the case is malformed.
+AreaProblem areaProblemOf(const EvalCase& from);
+
+} // namespace antumbra::app

@@ -1,0 +1,366 @@
+// How much of an area light's reflection reaches a point past convex bodies, in closed form: KT, Sakurikar, Narayanan 2021 on linearly
+// transformed cosines (Heitz et al. 2016, eq. 3 to 5), with splits of convex cones in place of the paper's set difference
+// (methods/area-shadows.md). Needs what lib/cone_polygon.glsl and lib/silhouette.glsl need, OUTLINE_CORNERS of a light seen from a point,
+// LIGHT_VERTICES of a light's body, and AREA_OCCLUDERS.
+#ifndef LIB_AREA_GLSL
+#define LIB_AREA_GLSL
+
+const int kFrames = POLYGON_PLACES - 2; // of the search below; the other two places are scratch
+#include "lib/cone_polygon.glsl"
+#include "lib/silhouette.glsl"
+
+// Shares of the lobe's whole: 0 <= visible <= unoccluded <= 1.
+struct AreaShare
+{
+    float unoccluded;
+    float visible;
+    uint pieces; // polygons that were integrated
+    uint fallbacks; // of them, what was left to samples
+};
+
+// The light's outline, counter-clockwise, relative to the point.
+vec3 outline[OUTLINE_CORNERS];
+int outlineCount = 0;
+bool isLightFlipped; // planar, and seen from behind
+
+// Occluders: silhouettes that may meet the outline, as ranges of edges.
+int occluderFirst[AREA_OCCLUDERS];
+int occluderEnd[AREA_OCCLUDERS];
+int occluderCount = 0;
+bool isAllHidden;
+bool isOccluderLost; // more than fit
+
+// The planes of the edges in the lobe's space.
+vec3 lobePlanes[SILHOUETTE_EDGES];
+
+// A side of the light counts as seen only from a ten-millionth of the distance on.
+bool seesFace(BodyArrays arrays, BodyBlock light, FaceBlock face, vec3 point, float side)
+{
+    vec3 from = point - bodyVertex(arrays, light, faceCorner(arrays, face, 0u));
+    return side * dot(face.normal, from) > 1.0e-7 * length(from);
+}
+
+void addOutlineCorner(vec3 corner)
+{
+    if (outlineCount < OUTLINE_CORNERS)
+        outline[outlineCount++] = corner;
+}
+
+void findPlanarOutline(BodyArrays arrays, BodyBlock light, vec3 point)
+{
+    FaceBlock face = bodyFace(arrays, light, 0u);
+    bool isFromFront = seesFace(arrays, light, face, point, 1.0);
+    isLightFlipped = !isFromFront && (light.flags & kBodyTwoSided) != 0u && seesFace(arrays, light, face, point, -1.0);
+    uint count = isFromFront || isLightFlipped ? face.cornerCount : 0u;
+    for (uint i = 0u; i < count; ++i)
+        addOutlineCorner(bodyVertex(arrays, light, faceCorner(arrays, face, isLightFlipped ? i : count - 1u - i)) - point);
+}
+
+// Of a closed body: the edges between faces that are seen and faces that are not, one after another.
+void findSolidOutline(BodyArrays arrays, BodyBlock light, vec3 point)
+{
+#ifndef PLANAR_LIGHTS
+    for (uint word = 0u; word < FACE_WORDS; ++word)
+        frontFaces[word] = 0u;
+    for (uint i = 0u; i < light.faceCount; ++i)
+        frontFaces[i >> 5u] |= seesFace(arrays, light, bodyFace(arrays, light, i), point, 1.0) ? 1u << (i & 31u) : 0u;
+    uint next[LIGHT_VERTICES];
+    uint start = kNoFace;
+    for (uint i = 0u; i < light.edgeCount; ++i) {
+        EdgeBlock edge = BodyEdges(arrays.edges).edge[light.firstEdge + i];
+        uint a = edge.vertices & 0xffffu, b = edge.vertices >> 16u;
+        bool leftFront = isFront(edge.faces & 0xffffu), rightFront = isFront(edge.faces >> 16u);
+        if (leftFront != rightFront) {
+            start = leftFront ? b : a;
+            next[start] = leftFront ? a : b;
+        }
+    }
+    if (start == kNoFace)
+        return;
+    uint vertex = start;
+    do {
+        addOutlineCorner(bodyVertex(arrays, light, vertex) - point);
+        vertex = next[vertex];
+    } while (vertex != start && outlineCount < OUTLINE_CORNERS);
+#endif
+}
+
+// Whether the light shines on the point at all. Forgets the occluders of the light before.
+bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
+{
+    outlineCount = 0;
+    isLightFlipped = false;
+    edgeCount = 0;
+    occluderCount = 0;
+    isAllHidden = false;
+    isOccluderLost = false;
+    if ((light.flags & kBodyPlanar) != 0u)
+        findPlanarOutline(arrays, light, point);
+    else
+        findSolidOutline(arrays, light, point);
+    return outlineCount >= 3;
+}
+
+bool planeMissesOutline(vec3 plane)
+{
+    bool misses = true;
+    for (int i = 0; i < outlineCount; ++i)
+        misses = misses && dot(plane, outline[i]) <= kOnPlane * length(outline[i]);
+    return misses;
+}
+
+// The silhouette of the body, or of what of it lies in front of the plane, unless it cannot meet the light.
+void addOccluderPart(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, CutPlane plane)
+{
+    int first = edgeCount;
+    isAllHidden = !addSilhouette(arrays, body, point, isCut, plane) || isAllHidden;
+    bool misses = edgeCount == first;
+    for (int i = first; i < edgeCount && !misses; ++i)
+        misses = planeMissesOutline(edgePlanes[i].xyz);
+    bool fits = occluderCount < AREA_OCCLUDERS && edgeCount < SILHOUETTE_EDGES && edgeCount - first < SILHOUETTE_BODY_EDGES;
+    isOccluderLost = isOccluderLost || (!misses && !fits);
+    if (misses || !fits) {
+        edgeCount = first;
+        return;
+    }
+    occluderFirst[occluderCount] = first;
+    occluderEnd[occluderCount++] = edgeCount;
+}
+
+// Where a body is with regard to a plane that ends what counts of it.
+const uint kBehindPlane = 0u;
+const uint kAcrossPlane = 1u;
+const uint kInFrontOfPlane = 2u;
+
+uint placeOfBody(BodyArrays arrays, BodyBlock body, vec3 point, CutPlane plane)
+{
+    float centreHeight = dot(plane.normal, body.centre - point) + plane.offset;
+    if (abs(centreHeight) > body.radius)
+        return centreHeight > 0.0 ? kInFrontOfPlane : kBehindPlane;
+    float tolerance = 2.0e-7 * reachOf(body, point);
+    bool isWhole = true, hasPart = false;
+    for (uint i = 0u; i < body.vertexCount; ++i) {
+        float height = dot(plane.normal, bodyVertex(arrays, body, i) - point) + plane.offset;
+        isWhole = isWhole && height >= -tolerance;
+        hasPart = hasPart || height > tolerance;
+    }
+    return !hasPart ? kBehindPlane : isWhole ? kInFrontOfPlane : kAcrossPlane;
+}
+
+CutPlane planeOfFace(BodyArrays arrays, BodyBlock light, FaceBlock face, vec3 point)
+{
+    float height = heightOver(arrays, light, face, point);
+    return isLightFlipped ? CutPlane(-face.normal, -height) : CutPlane(face.normal, height);
+}
+
+// What lies before the light hides it: all of the body where it is in front of one face that is seen, else what is in front of each.
+void addOccluder(BodyArrays arrays, BodyBlock light, BodyBlock body, vec3 point)
+{
+    const CutPlane kNoCut = CutPlane(vec3(0.0), 0.0);
+#ifdef PLANAR_LIGHTS
+    const bool isPlanar = true;
+#else
+    bool isPlanar = (light.flags & kBodyPlanar) != 0u;
+#endif
+    uint faceCount = isPlanar ? 1u : light.faceCount;
+    bool isWhole = false;
+    for (uint i = 0u; i < faceCount && !isWhole; ++i) {
+        FaceBlock face = bodyFace(arrays, light, i);
+        isWhole = (isPlanar || seesFace(arrays, light, face, point, 1.0)) &&
+                  placeOfBody(arrays, body, point, planeOfFace(arrays, light, face, point)) == kInFrontOfPlane;
+    }
+    // One call: the search for a silhouette stands in the program once, for CPU devices.
+    uint count = isWhole ? 1u : faceCount;
+    for (uint i = 0u; i < count; ++i) {
+        FaceBlock face = bodyFace(arrays, light, i);
+        CutPlane plane = isWhole ? kNoCut : planeOfFace(arrays, light, face, point);
+        bool isPart = isWhole || ((isPlanar || seesFace(arrays, light, face, point, 1.0)) &&
+                                  placeOfBody(arrays, body, point, plane) == kAcrossPlane);
+        if (isPart)
+            addOccluderPart(arrays, body, point, !isWhole, plane);
+    }
+}
+
+// --- One lobe: its linear transform takes directions to a space where it is the clamped cosine about +Z.
+
+vec3 lobePlane(int edge, mat3 lobe, mat3 lobeOfPlanes)
+{
+    vec4 plane = edgePlanes[edge];
+    // The vectors themselves keep the digits that a plane of nearly parallel ones would lose in a narrow lobe.
+    return plane.w > 0.0 ? unitOrZero(lobeOfPlanes * plane.xyz) : planeThrough(lobe * edgeStarts[edge], lobe * edgeSpans[edge]);
+}
+
+// The light's polygon in the lobe's space to place 0, cut by the lobe's horizon and the true one.
+void placeLight(mat3 lobe, vec3 horizon)
+{
+    const int kUncut = 1, kCutOnce = 2;
+    beginPolygon(kUncut);
+    for (int i = 0; i < outlineCount; ++i) {
+        vec3 corner = lobe * outline[i], next = lobe * outline[i + 1 < outlineCount ? i + 1 : 0];
+        addCorner(kUncut, unitOrZero(corner), planeThrough(corner, next - corner).z);
+    }
+    sidesOf(kUncut, vec3(0.0, 0.0, 1.0));
+    cut(kUncut, vec3(0.0, 0.0, 1.0), kCutOnce, kUncut, false);
+    for (int i = 0; i < cornerCounts[kCutOnce]; ++i)
+        polygonCorners[kCutOnce * POLYGON_CORNERS + i].z = max(polygonCorners[kCutOnce * POLYGON_CORNERS + i].z, 0.0);
+    sidesOf(kCutOnce, horizon);
+    cut(kCutOnce, horizon, 0, kUncut, false);
+}
+
+// The search: polygons of light, each with the occluders that are still to be taken from it.
+int framePlace[kFrames];
+float frameSign[kFrames];
+int frameOccluder[kFrames]; // the next one, or the one that is being split by
+int frameEdge[kFrames]; // the next edge to split by; -1: none is
+int scratchA, scratchB;
+
+// The part of the polygon that the occluder hides, in scratchA; whether there is any. Both scratch places may change names.
+bool findHidden(int place, int occluder)
+{
+    int from = place;
+    bool isCovered = true;
+    for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder]; ++edge) {
+        uint sides = sidesOf(from, lobePlanes[edge]);
+        if ((sides & 1u) == 0u)
+            return false;
+        if ((sides & 2u) == 0u)
+            continue;
+        isCovered = false;
+        cut(from, lobePlanes[edge], scratchB, scratchA, false);
+        int made = scratchB;
+        scratchB = scratchA;
+        scratchA = made;
+        from = scratchA;
+        if (cornerCounts[scratchA] == 0)
+            return false;
+    }
+    if (isCovered)
+        cornerCounts[scratchA] = 0;
+    return true;
+}
+
+bool isInsideOccluder(vec3 direction, int occluder)
+{
+    bool isInside = true;
+    for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder]; ++edge)
+        isInside = isInside && dot(lobePlanes[edge], direction) > 0.0;
+    return isInside;
+}
+
+// Share of the polygon's form factor that the occluders from `first` on leave, by points on the flat triangles of its corners.
+float sampledShare(int place, int first)
+{
+    const int kSamples = 8; // a triangle
+    float seen = 0.0, all = 1.0e-30; // never zero
+    vec3 a = polygonCorners[place * POLYGON_CORNERS].xyz;
+    for (int i = 1; i + 1 < cornerCounts[place]; ++i) {
+        vec3 b = polygonCorners[place * POLYGON_CORNERS + i].xyz, c = polygonCorners[place * POLYGON_CORNERS + i + 1].xyz;
+        float turn = abs(dot(a, cross(b - a, c - a))); // of the triangle's area and its distance
+        for (int k = 0; k < kSamples; ++k) {
+            float u = sqrt((float(k) + 0.5) / float(kSamples)), v = float(bitfieldReverse(uint(k))) * 2.3283064365386963e-10;
+            vec3 at = a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v);
+            float distance2 = dot(at, at);
+            float weight = turn * max(at.z, 0.0) / (distance2 * distance2);
+            bool isHidden = false;
+            for (int occluder = first; occluder < occluderCount; ++occluder)
+                isHidden = isHidden || isInsideOccluder(at, occluder);
+            seen += isHidden ? 0.0 : weight;
+            all += weight;
+        }
+    }
+    return seen / all;
+}
+
+// Goes on with the frame at the top; returns the frame that is the top then.
+int splitFurther(int top)
+{
+    int place = framePlace[top], occluder = frameOccluder[top], edge = frameEdge[top];
+    if (edge == occluderEnd[occluder] || cornerCounts[place] == 0)
+        return top - 1; // what is left is hidden
+    vec3 plane = lobePlanes[edge];
+    uint sides = sidesOf(place, plane);
+    frameEdge[top] = edge + 1;
+    if ((sides & 2u) == 0u)
+        return top;
+    if ((sides & 1u) == 0u) {
+        frameOccluder[top] = occluder + 1; // all of it is outside
+        frameEdge[top] = -1;
+        return top;
+    }
+    int outside = framePlace[top + 1];
+    cut(place, plane, scratchA, outside, true);
+    framePlace[top] = scratchA;
+    scratchA = place;
+    frameSign[top + 1] = frameSign[top];
+    frameOccluder[top + 1] = occluder + 1;
+    frameEdge[top + 1] = -1;
+    return cornerCounts[outside] > 0 ? top + 1 : top;
+}
+
+// The form factor of what the occluders leave of the polygon at place 0. `mostPieces`: the rest is left to samples.
+AreaShare visibleShare(uint mostPieces)
+{
+    AreaShare found = AreaShare(formFactor(0), 0.0, 1u, 0u);
+    for (int i = 0; i < kFrames; ++i)
+        framePlace[i] = i;
+    scratchA = kFrames;
+    scratchB = kFrames + 1;
+    frameSign[0] = 1.0;
+    frameOccluder[0] = 0;
+    frameEdge[0] = -1;
+    int top = cornerCounts[0] > 0 ? 0 : -1;
+    while (top >= 0) {
+        int place = framePlace[top];
+        bool isFull = top + 1 >= kFrames || !hasRoomForCut(place) || found.pieces >= mostPieces;
+        if (frameEdge[top] >= 0 && !isFull) {
+            top = splitFurther(top);
+            continue;
+        }
+        int occluder = frameOccluder[top];
+        bool isHit = false;
+        while (occluder < occluderCount && !isHit && !isFull) {
+            isHit = findHidden(place, occluder);
+            occluder += isHit ? 0 : 1;
+        }
+        if (isHit && cornerCounts[scratchA] == 0) {
+            --top; // all of it is hidden
+        } else if (isHit && occluderCount - occluder > 2) {
+            frameOccluder[top] = occluder;
+            frameEdge[top] = occluderFirst[occluder];
+        } else {
+            // Few are left: what is hidden is taken away again, which makes fewer pieces than splitting around it.
+            bool goesOn = isHit && occluderCount - occluder == 2;
+            if (goesOn) {
+                int hidden = scratchA;
+                scratchA = framePlace[top + 1];
+                framePlace[top + 1] = hidden;
+                frameSign[top + 1] = -frameSign[top];
+                frameOccluder[top] = occluder + 1;
+                frameOccluder[top + 1] = occluder + 1;
+                frameEdge[top] = -1;
+                frameEdge[top + 1] = -1;
+                ++top;
+                continue;
+            }
+            float share = isFull ? sampledShare(place, frameOccluder[top]) : 1.0;
+            found.visible += frameSign[top] * share * (formFactor(place) - (isHit ? formFactor(scratchA) : 0.0));
+            found.fallbacks += isFull ? 1u : 0u;
+            found.pieces += isHit ? 2u : 1u;
+            --top;
+        }
+    }
+    found.visible = clamp(found.visible, 0.0, found.unoccluded); // signed sums round
+    return found;
+}
+
+// After beginLight and addOccluder. `lobe` takes world directions to the lobe's space; `normal` is the surface's.
+AreaShare areaShare(mat3 lobe, vec3 normal, uint mostPieces)
+{
+    mat3 lobeOfPlanes = transpose(inverse(lobe));
+    for (int i = 0; i < edgeCount; ++i)
+        lobePlanes[i] = lobePlane(i, lobe, lobeOfPlanes);
+    placeLight(lobe, unitOrZero(lobeOfPlanes * normal));
+    return isAllHidden ? AreaShare(formFactor(0), 0.0, 1u, 0u) : visibleShare(mostPieces);
+}
+
+#endif

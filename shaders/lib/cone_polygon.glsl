@@ -1,0 +1,137 @@
+// Convex cones from a point as spherical polygons, in numbered places of fixed size: cut by planes through the point, and integrated
+// against the clamped cosine (methods/area-shadows.md, Guards). Needs POLYGON_PLACES and POLYGON_CORNERS.
+#ifndef LIB_CONE_POLYGON_GLSL
+#define LIB_CONE_POLYGON_GLSL
+
+#include "lib/angle.glsl"
+
+// xyz: unit, counter-clockwise seen from the point. w: z of the inward unit normal of the plane to the next corner.
+vec4 polygonCorners[POLYGON_PLACES * POLYGON_CORNERS];
+int cornerCounts[POLYGON_PLACES];
+
+float planeSides[POLYGON_CORNERS]; // of the corners that were looked at last
+const float kOnPlane = 2.0e-7; // a corner this near a plane, of unit vectors, lies on it: rounding of four products
+
+void beginPolygon(int place) { cornerCounts[place] = 0; }
+
+void addCorner(int place, vec3 direction, float planeZ)
+{
+    if (cornerCounts[place] < POLYGON_CORNERS)
+        polygonCorners[place * POLYGON_CORNERS + cornerCounts[place]++] = vec4(direction, planeZ);
+}
+
+// A cut adds one corner at most.
+bool hasRoomForCut(int place) { return cornerCounts[place] < POLYGON_CORNERS; }
+
+// Finds planeSides. Bit 0: some corner is in front of the plane; bit 1: some is behind it.
+uint sidesOf(int place, vec3 plane)
+{
+    uint sides = 0u;
+    int first = place * POLYGON_CORNERS;
+    for (int i = 0; i < cornerCounts[place]; ++i) {
+        float side = dot(plane, polygonCorners[first + i].xyz);
+        side = abs(side) <= kOnPlane ? 0.0 : side;
+        planeSides[i] = side;
+        sides |= side > 0.0 ? 1u : side < 0.0 ? 2u : 0u;
+    }
+    return sides;
+}
+
+// A convex polygon meets a plane at most twice: more changes of side come from rounding, and the weaker side is no side.
+void dropFalseCrossings(int count)
+{
+    int changes = 0;
+    float last = 0.0, first = 0.0, mostInFront = 0.0, mostBehind = 0.0;
+    for (int i = 0; i < count; ++i) {
+        float side = sign(planeSides[i]);
+        mostInFront = max(mostInFront, planeSides[i]);
+        mostBehind = max(mostBehind, -planeSides[i]);
+        changes += side * last < 0.0 ? 1 : 0;
+        first = first == 0.0 ? side : first;
+        last = side == 0.0 ? last : side;
+    }
+    changes += first * last < 0.0 ? 1 : 0;
+    if (changes <= 2)
+        return;
+    float kept = mostInFront >= mostBehind ? 1.0 : -1.0;
+    for (int i = 0; i < count; ++i)
+        planeSides[i] = planeSides[i] * kept < 0.0 ? 0.0 : planeSides[i];
+}
+
+// Computed from the end in front, always, so that two polygons share the same corner.
+vec3 crossing(vec3 front, float frontSide, vec3 behind, float behindSide)
+{
+    vec3 between = front * -behindSide + behind * frontSide;
+    return between * inversesqrt(max(dot(between, between), 1.0e-30)); // never zero for ends that differ
+}
+
+// The part of `from` in front of the plane goes to `front`, and where `wantsBehind` the rest to `behind`, else that is left alone: three
+// different places. After sidesOf(from, plane).
+void cut(int from, vec3 plane, int front, int behind, bool wantsBehind)
+{
+    int count = cornerCounts[from];
+    dropFalseCrossings(count);
+    beginPolygon(front);
+    if (wantsBehind)
+        beginPolygon(behind);
+    for (int i = 0; i < count; ++i) {
+        int next = i + 1 < count ? i + 1 : 0;
+        float a = planeSides[i], b = planeSides[next];
+        vec4 corner = polygonCorners[from * POLYGON_CORNERS + i];
+        if (a >= 0.0)
+            addCorner(front, corner.xyz, a > 0.0 || b >= 0.0 ? corner.w : plane.z);
+        if (wantsBehind && a <= 0.0)
+            addCorner(behind, corner.xyz, a < 0.0 || b <= 0.0 ? corner.w : -plane.z);
+        if (a * b < 0.0) {
+            vec3 other = polygonCorners[from * POLYGON_CORNERS + next].xyz;
+            vec3 at = a > 0.0 ? crossing(corner.xyz, a, other, b) : crossing(other, b, corner.xyz, a);
+            addCorner(front, at, a > 0.0 ? plane.z : corner.w);
+            if (wantsBehind)
+                addCorner(behind, at, a > 0.0 ? corner.w : -plane.z);
+        }
+    }
+    cornerCounts[front] = cornerCounts[front] < 3 ? 0 : cornerCounts[front];
+    if (wantsBehind)
+        cornerCounts[behind] = cornerCounts[behind] < 3 ? 0 : cornerCounts[behind];
+}
+
+// theta / sin theta - 1 for the arc of a chord, by its square: the series of asin(sqrt s) / sqrt(s (1 - s)), s = chord^2 / 4.
+float curvatureOfShortArc(float chord2)
+{
+    float s = 0.25 * chord2;
+    return s * (2.0 / 3.0 +
+                s * (8.0 / 15.0 +
+                     s * (16.0 / 35.0 +
+                          s * (128.0 / 315.0 +
+                               s * (256.0 / 693.0 + s * (1024.0 / 3003.0 + s * (2048.0 / 6435.0 + s * 32768.0 / 109395.0)))))));
+}
+
+// Share of the hemisphere's cosine-weighted solid angle that the polygon fills, 0..1, where all of it has z >= 0. By the sum over its edges
+// about its first corner, which keeps the digits of a small one, plus what their curvature adds; no acos, which loses half of them.
+float formFactor(int place)
+{
+    int count = cornerCounts[place], base = place * POLYGON_CORNERS;
+    if (count < 3)
+        return 0.0;
+    vec2 centre = polygonCorners[base].xy;
+    float flat_ = 0.0, curved = 0.0;
+    vec4 a = polygonCorners[base];
+    for (int i = 0; i < count; ++i) {
+        vec4 b = polygonCorners[base + (i + 1 < count ? i + 1 : 0)];
+        vec2 p = a.xy - centre, q = b.xy - centre;
+        flat_ += p.x * q.y - p.y * q.x;
+        vec3 chord = b.xyz - a.xyz;
+        float chord2 = dot(chord, chord), crossZ = a.x * chord.y - a.y * chord.x;
+        if (chord2 < 0.3) {
+            curved += curvatureOfShortArc(chord2) * crossZ;
+        } else {
+            float angle = angleBetween(a.xyz, b.xyz);
+            // Ends that are nearly opposite have no cross product to speak of; the plane of their edge is known.
+            curved += chord2 < 3.8 ? (angle / length(cross(a.xyz, chord)) - 1.0) * crossZ : angle * a.w - crossZ;
+        }
+        a = b;
+    }
+    return (flat_ + curved) * 0.15915494309; // 1 / (2 pi)
+}
+
+#endif

@@ -1,0 +1,184 @@
+// Convex bodies as they are seen from a point: the planes through the point that bound what they hide (methods/area-shadows.md, Guards 3
+// and 4, Depth). Needs SILHOUETTE_EDGES, of all bodies together, and FACE_WORDS, a bit a face of the largest.
+#ifndef LIB_SILHOUETTE_GLSL
+#define LIB_SILHOUETTE_GLSL
+
+#include "shared/area.h"
+
+layout(buffer_reference, scalar) readonly buffer Bodies { BodyBlock body[]; };
+layout(buffer_reference, scalar) readonly buffer BodyVertices { vec3 position[]; };
+layout(buffer_reference, scalar) readonly buffer BodyFaces { FaceBlock face[]; };
+layout(buffer_reference, scalar) readonly buffer BodyCorners { uint vertex[]; };
+layout(buffer_reference, scalar) readonly buffer BodyEdges { EdgeBlock edge[]; };
+
+// What can be seen of the body must lie in front of this plane: dot(normal, v - point) + offset > 0.
+struct CutPlane
+{
+    vec3 normal;
+    float offset; // of the point itself; metres
+};
+
+// Edges of silhouettes, counter-clockwise seen from the point, one body after another. All are relative to the point.
+vec3 edgeStarts[SILHOUETTE_EDGES];
+vec3 edgeSpans[SILHOUETTE_EDGES];
+vec4 edgePlanes[SILHOUETTE_EDGES]; // unit, what the body hides in front. w: 1 where it is a face's plane, not that of the edge
+vec3 edgeEnds[2 * SILHOUETTE_BODY_EDGES]; // unit, of the body that was gathered last: what of the edge is in front of the cut
+int edgeCount = 0;
+
+uint frontFaces[FACE_WORDS]; // of the body that was looked at last; those in whose plane the point lies count as front
+uint levelFaces[FACE_WORDS]; // the point lies in their plane
+
+bool isFront(uint face) { return (frontFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
+bool isLevel(uint face) { return (levelFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
+
+vec3 bodyVertex(BodyArrays arrays, BodyBlock body, uint index) { return BodyVertices(arrays.vertices).position[body.firstVertex + index]; }
+
+FaceBlock bodyFace(BodyArrays arrays, BodyBlock body, uint index) { return BodyFaces(arrays.faces).face[body.firstFace + index]; }
+
+uint faceCorner(BodyArrays arrays, FaceBlock face, uint index) { return BodyCorners(arrays.corners).vertex[face.firstCorner + index]; }
+
+// How far the point is in front of the face's plane, metres.
+float heightOver(BodyArrays arrays, BodyBlock body, FaceBlock face, vec3 point)
+{
+    return dot(face.normal, point - bodyVertex(arrays, body, faceCorner(arrays, face, 0u)));
+}
+
+// Finds frontFaces and levelFaces; whether there is any front one. `tolerance` in metres: so near its plane a point is level with a face.
+bool findFronts(BodyArrays arrays, BodyBlock body, vec3 point, float tolerance)
+{
+    bool hasFront = false;
+    for (uint word = 0u; 32u * word < body.faceCount; ++word) {
+        uint fronts = 0u, levels = 0u;
+        uint count = min(body.faceCount - 32u * word, 32u);
+        for (uint bit = 0u; bit < count; ++bit) {
+            float height = heightOver(arrays, body, bodyFace(arrays, body, 32u * word + bit), point);
+            fronts |= height >= -tolerance ? 1u << bit : 0u;
+            levels |= abs(height) <= tolerance ? 1u << bit : 0u;
+        }
+        frontFaces[word] = fronts;
+        levelFaces[word] = levels;
+        hasFront = hasFront || fronts != 0u;
+    }
+    return hasFront;
+}
+
+// Farther than any vertex of the body.
+float reachOf(BodyBlock body, vec3 point) { return distance(body.centre, point) + body.radius; }
+
+void addEdge(int first, vec3 start, vec3 span, vec4 plane, vec3 startSeen, vec3 endSeen)
+{
+    bool hasPlane = dot(plane.xyz, plane.xyz) > 0.0;
+    if (!hasPlane || edgeCount >= SILHOUETTE_EDGES || edgeCount - first >= SILHOUETTE_BODY_EDGES)
+        return;
+    edgeStarts[edgeCount] = start;
+    edgeSpans[edgeCount] = span;
+    edgePlanes[edgeCount] = plane;
+    edgeEnds[2 * (edgeCount - first)] = startSeen * inversesqrt(max(dot(startSeen, startSeen), 1.0e-30));
+    edgeEnds[2 * (edgeCount - first) + 1] = endSeen * inversesqrt(max(dot(endSeen, endSeen), 1.0e-30));
+    ++edgeCount;
+}
+
+vec3 unitOrZero(vec3 v)
+{
+    float length2 = dot(v, v);
+    return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
+}
+
+// Of the plane through the point that holds `start` and `start + span`: exacter than by both ends, which may be close together.
+vec3 planeThrough(vec3 start, vec3 span) { return unitOrZero(cross(start, unitOrZero(span))); }
+
+void addSilhouetteEdge(int first, BodyArrays arrays, BodyBlock body, vec3 point, EdgeBlock edge, bool isCut, CutPlane plane)
+{
+    uint left = edge.faces & 0xffffu, right = edge.faces >> 16u;
+    bool leftFront = isFront(left);
+    bool rightFront = right == kNoFace ? !leftFront : isFront(right);
+    if (leftFront == rightFront)
+        return;
+    uint front = leftFront ? left : right;
+    vec3 a = bodyVertex(arrays, body, edge.vertices & 0xffffu) - point, b = bodyVertex(arrays, body, edge.vertices >> 16u) - point;
+    vec3 start = leftFront ? b : a, end = leftFront ? a : b;
+    vec3 span = end - start;
+    vec3 startSeen = start, endSeen = end;
+    if (isCut) {
+        float startHeight = dot(plane.normal, start) + plane.offset, endHeight = dot(plane.normal, end) + plane.offset;
+        if (startHeight <= 0.0 && endHeight <= 0.0)
+            return;
+        startSeen = startHeight < 0.0 ? start + span * (startHeight / (startHeight - endHeight)) : start;
+        endSeen = endHeight < 0.0 ? end - span * (endHeight / (endHeight - startHeight)) : end;
+    }
+    // The planes of a face's edges say nothing to a point level with it; its own does.
+    bool isOfFace = front != kNoFace && isLevel(front);
+    vec4 through = isOfFace ? vec4(-bodyFace(arrays, body, front).normal, 1.0) : vec4(planeThrough(start, span), 0.0);
+    addEdge(first, start, span, through, startSeen, endSeen);
+}
+
+// Where a front face goes through the cut, what lies before it ends: from crossing to crossing.
+void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint index, CutPlane plane)
+{
+    FaceBlock face = bodyFace(arrays, body, index);
+    vec3 leaving = vec3(0.0), entering = vec3(0.0);
+    bool leaves = false, enters = false;
+    vec3 a = bodyVertex(arrays, body, faceCorner(arrays, face, face.cornerCount - 1u)) - point;
+    float aHeight = dot(plane.normal, a) + plane.offset;
+    for (uint i = 0u; i < face.cornerCount; ++i) {
+        vec3 b = bodyVertex(arrays, body, faceCorner(arrays, face, i)) - point;
+        float bHeight = dot(plane.normal, b) + plane.offset;
+        if ((aHeight > 0.0) != (bHeight > 0.0)) {
+            float share = aHeight > 0.0 ? aHeight / (aHeight - bHeight) : bHeight / (bHeight - aHeight); // of the end behind
+            vec3 at = aHeight > 0.0 ? mix(a, b, share) : mix(b, a, share);
+            leaving = aHeight > 0.0 ? at : leaving;
+            entering = aHeight > 0.0 ? entering : at;
+            leaves = leaves || aHeight > 0.0;
+            enters = enters || bHeight > 0.0;
+        }
+        a = b;
+        aHeight = bHeight;
+    }
+    vec3 start = isFront(index) ? entering : leaving, end = isFront(index) ? leaving : entering;
+    if (leaves && enters)
+        addEdge(first, start, end - start, vec4(planeThrough(start, end - start), 0.0), start, end);
+}
+
+// A mesh of floats is convex to rounding alone, and the plane through a short edge tells: it goes where it cuts into the silhouette.
+void dropFalsePlanes(int first)
+{
+    int kept = first;
+    int ends = 2 * (edgeCount - first);
+    for (int i = first; i < edgeCount; ++i) {
+        vec3 chord = edgeEnds[2 * (i - first)] - edgeEnds[2 * (i - first) + 1];
+        float chord2 = dot(chord, chord), lowest = 0.0;
+        int count = chord2 < 4.0e-4 ? ends : 0;
+        for (int k = 0; k < count; ++k)
+            lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
+        if (lowest < -1.0e-6 && lowest * lowest > 0.25 * chord2)
+            continue;
+        edgeStarts[kept] = edgeStarts[i];
+        edgeSpans[kept] = edgeSpans[i];
+        edgePlanes[kept] = edgePlanes[i];
+        ++kept;
+    }
+    edgeCount = kept;
+}
+
+// Adds the edges that bound what the body hides. None: it hides nothing. False: the point is inside it, and all is hidden.
+bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, CutPlane plane)
+{
+    bool isPlanar = (body.flags & kBodyPlanar) != 0u;
+    bool hasFront = findFronts(arrays, body, point, 5.0e-7 * reachOf(body, point));
+    if (isPlanar && (isLevel(0u) || (!hasFront && (body.flags & kBodyFrontOnly) != 0u)))
+        return true; // edge-on, or a side that does not block
+    if (!isPlanar && !hasFront)
+        return false;
+    int first = edgeCount;
+    for (uint i = 0u; i < body.edgeCount; ++i)
+        addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);
+    if (isCut)
+        for (uint i = 0u; i < body.faceCount; ++i)
+            if (isPlanar || (isFront(i) && !isLevel(i)))
+                addCutFace(first, arrays, body, point, i, plane);
+    if (!isPlanar)
+        dropFalsePlanes(first);
+    return true;
+}
+
+#endif
