@@ -12,7 +12,8 @@
 
 // First term minus occluded irradiance, times albedo over pi (Xu et al. 2022, eq. 2 and 3), and on to display values, all in registers:
 // CPU devices pay for every image that is read or written in between. Where nothing is, sky.frag draws the environment.
-// Variants: OCCLUDED takes traced pixels away from the first term; EXPLAINS keeps what lies behind the picture, and shows it.
+// Variants: OCCLUDED takes traced pixels away from the first term; AREA_LIT adds the light of area lights, AREA_GLOSSY what of it is reflected
+// by GGX; DARK is black where nothing is; EXPLAINS keeps what lies behind the picture, and shows it.
 layout(local_size_x = 8, local_size_y = 8) in; // a thread a block of pixels that lie between the same four traced ones
 
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
@@ -97,9 +98,8 @@ vec3 heat(float t)
     return clamp(vec3(2.0 * t - 0.5, 1.5 - abs(3.0 * t - 1.5), 1.0 - 2.0 * t), 0.0, 1.0);
 }
 
-vec3 viewed(vec3 albedo, vec3 firstTerm, vec4 occluded, vec3 truth, vec3 normal)
+vec3 viewed(vec3 final, vec3 albedo, vec3 firstTerm, vec4 occluded, vec3 truth, vec3 normal)
 {
-    vec3 final = albedo * kInversePi * shadowedIrradiance(firstTerm, occluded.rgb);
     vec3 reference = albedo * kInversePi * shadowedIrradiance(firstTerm, truth);
     switch (pc.view) {
     case kViewUnshadowed: return albedo * kInversePi * max(firstTerm, vec3(0.0));
@@ -135,9 +135,15 @@ void composeSurface(ivec2 pixel, ivec2 corner, float depthView)
 #endif
     countBroken(firstTerm, occluded.rgb);
     vec3 irradiance = shadowedIrradiance(firstTerm, occluded.rgb);
+#ifdef AREA_LIT
+    irradiance += texelFetch(sampledImages[pc.areaDiffuse], pixel, 0).rgb;
+#endif
     vec3 color = albedo * kInversePi * irradiance;
+#ifdef AREA_GLOSSY
+    color += texelFetch(sampledImages[pc.areaSpecular], pixel, 0).rgb;
+#endif
 #ifdef EXPLAINS
-    color = uint(pixel.x) >= pc.splitX ? viewed(albedo, firstTerm, occluded, truth, normal) : color;
+    color = uint(pixel.x) >= pc.splitX ? viewed(color, albedo, firstTerm, occluded, truth, normal) : color;
     keep(pc.color, pixel, vec4(color, 1.0));
     keep(pc.irradiance, pixel, vec4(irradiance, 1.0));
     keep(pc.occluded, pixel, occluded);
@@ -148,14 +154,17 @@ void composeSurface(ivec2 pixel, ivec2 corner, float depthView)
 void composePixel(ivec2 pixel, ivec2 corner)
 {
     float depth = texelFetch(sampledImages[pc.depth], pixel, 0).x;
-    if (depth > 0.0)
+    if (depth > 0.0) {
         composeSurface(pixel, corner, frameBlock.near / depth);
-#ifdef EXPLAINS
-    else {
-        keep(pc.color, pixel, vec4(0.0));
-        keep(pc.irradiance, pixel, vec4(0.0));
-        keep(pc.occluded, pixel, vec4(0.0));
+        return;
     }
+#ifdef DARK
+    imageStore(storageImages[pc.picture], pixel, vec4(0.0, 0.0, 0.0, 1.0));
+#endif
+#ifdef EXPLAINS
+    keep(pc.color, pixel, vec4(0.0));
+    keep(pc.irradiance, pixel, vec4(0.0));
+    keep(pc.occluded, pixel, vec4(0.0));
 #endif
 }
 

@@ -13,7 +13,8 @@
 #endif
 
 // Variants: TEXTURED where the material may have an image; CUT_OUT, beside it, where it is cut out: discarding puts off the depth test.
-// The first term is the environment's, what is baked (BAKED), or that of baked light that comes in there (LOCAL_LIGHT).
+// The first term is the environment's, what is baked (BAKED), that of baked light that comes in there (LOCAL_LIGHT), or nothing (DARK).
+// KEEPS_MATERIAL where area lights are reflected by more than albedo.
 layout(push_constant, scalar) uniform Push { GBufferDraw pc; };
 
 layout(location = 0) in vec3 positionWorld;
@@ -28,6 +29,9 @@ layout(location = 3) in vec2 bakePlace; // on the atlas, texels
 layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
 layout(location = 1) out vec4 outAlbedo; // a: 1 for what moves
 layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
+#ifdef KEEPS_MATERIAL
+layout(location = 3) out vec4 outMaterial; // roughness, metallic, specular
+#endif
 
 vec3 firstTerm(vec3 shading)
 {
@@ -35,6 +39,8 @@ vec3 firstTerm(vec3 shading)
     return atlasIrradiance(frameBlock.baked, bakePlace);
 #elif defined(LOCAL_LIGHT)
     return localIrradianceOfQuad(frameBlock.baked, positionWorld, shading, gl_HelperInvocation);
+#elif defined(DARK)
+    return vec3(0.0);
 #else
     float y[9];
     shBasis3(shading, y);
@@ -65,6 +71,9 @@ void main()
     outNormals = vec4(octahedralFromUnit(geometric), octahedralFromUnit(shading));
     outAlbedo = vec4(base.rgb, (pc.flags & kDrawDynamic) != 0u ? 1.0 : 0.0);
     outUnshadowed = vec4(withinHalf(firstTerm(shading)), pc.material.roughness);
+#ifdef KEEPS_MATERIAL
+    outMaterial = vec4(pc.material.roughness, pc.material.metallic, pc.material.specular, 0.0);
+#endif
 #ifdef CUT_OUT
     if (base.a < pc.material.alphaCutoff)
         discard; // last, as neighbours ask for derivatives and quads share look-ups

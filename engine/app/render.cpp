@@ -71,15 +71,16 @@ public:
     {
         const uint32_t wanted = view_.knobs.reference.samples;
         Clock::time_point told = Clock::now();
-        while (renderer_.referenceSamples() < wanted && !interrupt.isInterrupted()) {
+        const auto samples = [&] { return renderer_.referenceSamples().value_or(wanted); };
+        while (samples() < wanted && !interrupt.isInterrupted()) {
             draw();
             if (Clock::now() - told > std::chrono::seconds(2)) {
                 told = Clock::now();
-                logInfo("reference: {} of {} samples", renderer_.referenceSamples(), wanted);
+                logInfo("reference: {} of {} samples", samples(), wanted);
             }
         }
-        if (renderer_.referenceSamples() < wanted)
-            logWarning("interrupted: the reference has {} of {} samples", renderer_.referenceSamples(), wanted);
+        if (samples() < wanted)
+            logWarning("interrupted: the reference has {} of {} samples", samples(), wanted);
     }
 
     render::Renderer& renderer() { return renderer_; }

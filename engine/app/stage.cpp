@@ -1,5 +1,6 @@
 #include "app/stage.h"
 
+#include "app/shadow_bodies.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/fnv1a.h"
@@ -52,6 +53,7 @@ Stage::Stage(const scene::SceneFile& scene, uint64_t seed, Gameplay gameplay, co
 {
     auto& assets = world_.setResource(scene::Assets{});
     scene::populate(world_, assets, scene);
+    makeShadowBodies(world_, assets, scene.file.string());
     bakedLight_ = loadBakedLight(world_, assets, scene.file, bakeSettingsOf(scene, overrides));
     world_.setResource(InputFrame{});
     world_.setResource(Random(seed));

@@ -16,17 +16,35 @@ static_assert(static_cast<uint32_t>(ViewMode::Final) == shader::kViewFinal &&
 static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDifference &&
               static_cast<uint32_t>(ViewMode::Cones) == shader::kViewCones);
 
+/// What is drawn into the composed picture.
+gpu::Pipeline drawnOver(gpu::Device& device, std::string_view vertexShader, std::string_view fragmentShader, bool keepsColor,
+                        bool writesDepth)
+{
+    constexpr std::array formats{kPictureFormat, kKeptFormat};
+    constexpr gpu::ShaderDefine define{"KEEPS_COLOR"};
+    return rasterPipeline(device, {.vertexShader = vertexShader,
+                                   .fragmentShader = fragmentShader,
+                                   .defines = std::span(&define, keepsColor ? 1 : 0),
+                                   .colorFormats = std::span(formats).first(keepsColor ? 2 : 1),
+                                   .depthFormat = gpu::Format::Depth32Float,
+                                   .writesDepth = writesDepth});
+}
+
 } // namespace
 
-const gpu::Pipeline& CompositeSystem::composition(bool isOccluded, bool explains)
+const gpu::Pipeline& CompositeSystem::composition(Variant variant)
 {
-    gpu::Pipeline& pipeline = compositions_[(isOccluded ? 1u : 0u) + (explains ? 2u : 0u)];
+    gpu::Pipeline& pipeline = compositions_[variant.index()];
     if (!pipeline) {
+        const std::pair<bool, std::string_view> parts[] = {{variant.isOccluded, "OCCLUDED"},
+                                                           {variant.explains, "EXPLAINS"},
+                                                           {variant.isLit, "AREA_LIT"},
+                                                           {variant.isGlossy, "AREA_GLOSSY"},
+                                                           {variant.isDark, "DARK"}};
         std::vector<gpu::ShaderDefine> defines;
-        if (isOccluded)
-            defines.push_back({"OCCLUDED"});
-        if (explains)
-            defines.push_back({"EXPLAINS"});
+        for (const auto& [isPart, define] : parts)
+            if (isPart)
+                defines.push_back({define});
         pipeline = computePipeline(*device_, "composite.comp", defines);
     }
     return pipeline;
@@ -35,27 +53,26 @@ const gpu::Pipeline& CompositeSystem::composition(bool isOccluded, bool explains
 const gpu::Pipeline& CompositeSystem::sky(bool keepsColor)
 {
     gpu::Pipeline& pipeline = skies_[keepsColor ? 1 : 0];
-    if (!pipeline) {
-        constexpr std::array formats{kPictureFormat, kKeptFormat};
-        constexpr gpu::ShaderDefine define{"KEEPS_COLOR"};
-        pipeline = rasterPipeline(*device_, {.vertexShader = "sky.vert",
-                                             .fragmentShader = "sky.frag",
-                                             .defines = std::span(&define, keepsColor ? 1 : 0),
-                                             .colorFormats = std::span(formats).first(keepsColor ? 2 : 1),
-                                             .depthFormat = gpu::Format::Depth32Float,
-                                             .writesDepth = false});
-    }
+    if (!pipeline)
+        pipeline = drawnOver(*device_, "sky.vert", "sky.frag", keepsColor, false);
     return pipeline;
 }
 
-Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g, const Traced& traced,
-                                  ImageRef reference, ImageRef picture, Kept kept, graph::BufferRef& counters)
+const gpu::Pipeline& CompositeSystem::lightBody(bool keepsColor)
+{
+    gpu::Pipeline& pipeline = lightBodies_[keepsColor ? 1 : 0];
+    if (!pipeline)
+        pipeline = drawnOver(*device_, "light_body.vert", "light_body.frag", keepsColor, true);
+    return pipeline;
+}
+
+Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                                  const Traced& traced, ImageRef reference, const AreaLit& lit, ImageRef picture, Kept kept,
+                                  graph::BufferRef& counters)
 {
     const bool explains = view.knobs.view != ViewMode::Final || kept.any() || reference;
     graph::Pass pass = graph.add("composite");
-    for (const ImageRef image : {g.depth, g.normals, g.albedo, g.unshadowed})
-        pass.read(image, Use::Sampled);
-    for (const ImageRef image : {traced.pixels, reference})
+    for (const ImageRef image : {g.depth, g.normals, g.albedo, g.unshadowed, traced.pixels, reference, lit.diffuse, lit.specular})
         if (image)
             pass.read(image, Use::Sampled);
     counters = pass.write(counters, Use::StorageWrite);
@@ -67,8 +84,12 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                       .irradiance = create(kept.irradiance, "irradiance"),
                       .occluded = create(kept.occluded, "occluded")};
 
-    const gpu::Pipeline& pipeline = composition(static_cast<bool>(traced.pixels), explains);
-    pass.record([&pipeline, &view, frame, g, traced, reference, composed, counted = counters](graph::Recorder& recorder) {
+    const gpu::Pipeline& pipeline = composition({.isOccluded = static_cast<bool>(traced.pixels),
+                                                 .explains = explains,
+                                                 .isLit = static_cast<bool>(lit.diffuse),
+                                                 .isGlossy = static_cast<bool>(lit.specular),
+                                                 .isDark = !view.hasEnvironment()});
+    pass.record([&pipeline, &view, frame, g, traced, reference, lit, composed, counted = counters](graph::Recorder& recorder) {
         const auto sampled = [&](ImageRef image) { return image ? recorder.sampled(image) : shader::kAbsent; };
         const auto storage = [&](ImageRef image) { return image ? recorder.storage(image) : shader::kAbsent; };
         const uint32_t scale = traced.pixelScale;
@@ -80,6 +101,8 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .albedo = recorder.sampled(g.albedo),
                                             .unshadowed = recorder.sampled(g.unshadowed),
                                             .traced = sampled(traced.pixels),
+                                            .areaDiffuse = sampled(lit.diffuse),
+                                            .areaSpecular = sampled(lit.specular),
                                             .pixelScale = static_cast<int>(scale),
                                             .lastTraced = traced.pixels ? ivec2(recorder.extent(traced.pixels)) - 1 : ivec2(0),
                                             .reference = sampled(reference),
@@ -93,16 +116,56 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .splitX = view.splitColumn},
                           recorder.extent(composed.picture) / scale + 2u);
     });
+    const ImageRef depth = declareLightBodies(graph, view, frame, scene, g.depth, composed);
+    declareSky(graph, view, frame, depth, composed);
+    return composed;
+}
 
-    graph::Pass sky = graph.add("sky");
-    sky.read(g.depth, Use::DepthRead);
-    composed.picture = sky.write(composed.picture, Use::ColorAttachment);
-    if (kept.color)
-        composed.color = sky.write(composed.color, Use::ColorAttachment);
-    sky.record([&drawn = this->sky(kept.color), frame, exposure = view.exposure](graph::Recorder& recorder) {
+graph::ImageRef CompositeSystem::declareLightBodies(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                                    ImageRef depth, Composed& composed)
+{
+    if (view.areaLights.empty()) {
+        graph.skip("light bodies", "no AreaLight in the scene");
+        return depth;
+    }
+    graph::Pass pass = graph.add("light bodies");
+    depth = pass.write(depth, Use::DepthAttachment);
+    composed.picture = pass.write(composed.picture, Use::ColorAttachment);
+    if (composed.color)
+        composed.color = pass.write(composed.color, Use::ColorAttachment);
+    pass.record([&drawn = lightBody(static_cast<bool>(composed.color)), &view, &scene, frame](graph::Recorder& recorder) {
+        for (const AreaLightDraw& light : view.areaLights) {
+            const DeviceModel& model = scene.model(light.model);
+            const DeviceRest& rest = scene.rest(light.model);
+            const mat4 rows = glm::transpose(light.world);
+            recorder.drawIndexed(drawn,
+                                 shader::LightBodyDraw{.worldFromLocal = {rows[0], rows[1], rows[2]},
+                                                       .positions = rest.positions.address(),
+                                                       .normals = rest.normals.address(),
+                                                       .radiance = light.radiance,
+                                                       .exposure = view.exposure,
+                                                       .frame = frame,
+                                                       .isTwoSided = light.isTwoSided ? 1u : 0u},
+                                 model.indices, 3 * model.triangleCount, graph::Faces::Both);
+        }
+    });
+    return depth;
+}
+
+void CompositeSystem::declareSky(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, ImageRef depth, Composed& composed)
+{
+    if (!view.hasEnvironment()) {
+        graph.skip("sky", "no Environment in the scene");
+        return;
+    }
+    graph::Pass pass = graph.add("sky");
+    pass.read(depth, Use::DepthRead);
+    composed.picture = pass.write(composed.picture, Use::ColorAttachment);
+    if (composed.color)
+        composed.color = pass.write(composed.color, Use::ColorAttachment);
+    pass.record([&drawn = sky(static_cast<bool>(composed.color)), frame, exposure = view.exposure](graph::Recorder& recorder) {
         recorder.draw(drawn, shader::Sky{.frame = frame, .exposure = exposure}, 3);
     });
-    return composed;
 }
 
 } // namespace antumbra::render

@@ -2,6 +2,7 @@
 // sRGB), the environment behind it all, and the views that explain it.
 #pragma once
 
+#include "render/shadow/area_light.h"
 #include "render/shadow/occlusion.h"
 
 #include <array>
@@ -29,17 +30,29 @@ class CompositeSystem
 public:
     explicit CompositeSystem(gpu::Device& device) : device_(&device) {}
 
-    /// Writes `picture`. `traced` and `reference` may be absent.
-    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g, const Traced& traced,
-                     graph::ImageRef reference, graph::ImageRef picture, Kept kept, graph::BufferRef& counters);
+    /// Writes `picture`. `traced`, `reference` and `lit` may be absent.
+    Composed declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                     const Traced& traced, graph::ImageRef reference, const AreaLit& lit, graph::ImageRef picture, Kept kept,
+                     graph::BufferRef& counters);
 
 private:
-    const gpu::Pipeline& composition(bool isOccluded, bool explains);
+    /// What a composition is made for.
+    struct Variant
+    {
+        bool isOccluded, explains, isLit, isGlossy, isDark;
+        [[nodiscard]] size_t index() const { return isOccluded + 2u * explains + 4u * isLit + 8u * isGlossy + 16u * isDark; }
+    };
+
+    const gpu::Pipeline& composition(Variant variant);
     const gpu::Pipeline& sky(bool keepsColor);
+    const gpu::Pipeline& lightBody(bool keepsColor);
+    void declareSky(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, graph::ImageRef depth, Composed& composed);
+    graph::ImageRef declareLightBodies(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                       graph::ImageRef depth, Composed& composed);
 
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 4> compositions_; // each made when first asked for
-    std::array<gpu::Pipeline, 2> skies_;
+    std::array<gpu::Pipeline, 32> compositions_; // each made when first asked for
+    std::array<gpu::Pipeline, 2> skies_, lightBodies_;
 };
 
 } // namespace antumbra::render

@@ -34,6 +34,7 @@ void extractCamera(const ecs::World& world, FrameView& view)
 
 void extractEnvironment(const ecs::World& world, FrameView& view)
 {
+    view.environment = {.image = scene::kNoIndex};
     for (auto [environment] : Each<const scene::Environment>(world)) {
         view.environment = {environment.image, environment.rotationRadians, environment.intensity};
         return;
@@ -42,11 +43,15 @@ void extractEnvironment(const ecs::World& world, FrameView& view)
 
 bool isEmpty(const scene::Assets& assets, const scene::Drawable& drawable) { return assets.models[drawable.model].mesh.indices.empty(); }
 
+/// The mesh is the light's own body, and drawn as such.
+bool isLightItself(const scene::AreaLight* light) { return light != nullptr && light->shape == scene::LightShape::Mesh; }
+
 void extractStatics(const ecs::World& world, const scene::Assets& assets, FrameView& view)
 {
-    for (auto [drawable, matrix, baked] :
-         Each<const scene::Drawable, const scene::WorldMatrix, ecs::Maybe<const scene::StaticPRT>, ecs::Without<DynamicSkinned>>(world))
-        if (!isEmpty(assets, drawable))
+    for (auto [drawable, matrix, baked, light] :
+         Each<const scene::Drawable, const scene::WorldMatrix, ecs::Maybe<const scene::StaticPRT>, ecs::Maybe<const scene::AreaLight>,
+              ecs::Without<DynamicSkinned>>(world))
+        if (!isEmpty(assets, drawable) && !isLightItself(light))
             view.statics.push_back({drawable.model, matrix.now, baked != nullptr});
 }
 
@@ -70,6 +75,47 @@ void extractCharacters(const ecs::World& world, const scene::Assets& assets, Fra
     }
 }
 
+void extractAreaLights(const ecs::World& world, FrameView& view)
+{
+    for (auto [light, bodies, matrix] : Each<const scene::AreaLight, const scene::LightBodies, const scene::WorldMatrix>(world))
+        view.areaLights.push_back({.firstPart = bodies.first,
+                                   .partCount = bodies.count,
+                                   .model = bodies.model,
+                                   .world = matrix.now,
+                                   .radiance = light.radiance,
+                                   .isTwoSided = light.isTwoSided,
+                                   .shadow = light.shadow});
+}
+
+// Lights in the order that extractAreaLights finds them in.
+uint32_t lightOf(const ecs::World& world, ecs::Entity entity)
+{
+    uint32_t index = 0;
+    for (auto [each] : Each<ecs::Entity, ecs::With<scene::AreaLight>, ecs::With<scene::LightBodies>, ecs::With<scene::WorldMatrix>>(world)) {
+        if (each == entity)
+            return index;
+        ++index;
+    }
+    return scene::kNoIndex;
+}
+
+void extractOccluders(const ecs::World& world, const scene::Assets& assets, FrameView& view)
+{
+    if (view.areaLights.empty())
+        return;
+    const auto& poses = world.resource<PoseStore>();
+    for (auto [entity, bodies, matrix, pose, light] :
+         Each<ecs::Entity, const scene::OccluderBodies, const scene::WorldMatrix, ecs::Maybe<const Pose>, ecs::Maybe<const scene::AreaLight>>(
+             world)) {
+        const uint32_t own = light != nullptr ? lightOf(world, entity) : scene::kNoIndex;
+        for (uint32_t part = bodies.first; part < bodies.first + bodies.count; ++part) {
+            const uint32_t joint = assets.bodyParts[part].joint;
+            const bool isPosed = pose != nullptr && joint != scene::kNoIndex;
+            view.occluders.push_back({part, isPosed ? matrix.now * poses.joints(*pose)[joint] : matrix.now, own});
+        }
+    }
+}
+
 } // namespace
 
 void extract(const ecs::World& world, const scene::Assets& assets, FrameView& view)
@@ -79,6 +125,8 @@ void extract(const ecs::World& world, const scene::Assets& assets, FrameView& vi
     extractEnvironment(world, view);
     extractStatics(world, assets, view);
     extractCharacters(world, assets, view);
+    extractAreaLights(world, view);
+    extractOccluders(world, assets, view);
 }
 
 } // namespace antumbra::render

@@ -1,5 +1,6 @@
 #include "render/frame_blocks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -75,6 +76,12 @@ void FrameBlocks::writeEnvironment(const FrameView& view, const GpuScene& scene)
 {
     const EnvironmentView& environment = view.environment;
     shader::FrameBlock& block = newest_;
+    if (!view.hasEnvironment()) {
+        block.environmentIntensity = 0;
+        std::ranges::fill(block.radianceSh, vec3(0));
+        std::ranges::fill(block.irradianceSh, vec3(0));
+        return;
+    }
     bake::ShFunction radiance = bake::rotatedAboutY(projected(environment.image), environment.rotationRadians);
     if (view.shownBake() != nullptr)
         radiance = bake::windowed(radiance, view.knobs.prt.window);

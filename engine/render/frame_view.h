@@ -4,8 +4,12 @@
 #include "bake/bake.h"
 #include "base/math.h"
 #include "render/knobs.h"
+#include "scene/mesh.h"
+#include "scene/shadow_components.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,7 +25,7 @@ struct CameraView
 
 struct EnvironmentView
 {
-    uint32_t image = 0;        // into scene::Assets::environments
+    uint32_t image = 0;        // into scene::Assets::environments; kNoIndex: there is none, and no light from it
     float rotationRadians = 0; // turns the light about +Y, counter-clockwise seen from above
     float intensity = 1;
 };
@@ -45,6 +49,26 @@ struct CharacterDraw
     uint64_t poseVersion = 0; // changes when the pose does
 };
 
+/// An area light: every one of its parts shines.
+struct AreaLightDraw
+{
+    uint32_t firstPart = 0; // into scene::Assets::bodyParts
+    uint32_t partCount = 0;
+    uint32_t model = 0; // what is seen of it, into scene::Assets::models
+    mat4 world{1};
+    vec3 radiance{0}; // W/(m^2 sr)
+    bool isTwoSided = false;
+    std::optional<scene::LightShadow> shadow; // none: as the knob area.shadow says
+};
+
+/// A body that blocks area lights.
+struct OccluderDraw
+{
+    uint32_t part = 0; // into scene::Assets::bodyParts
+    mat4 world{1};     // of the part: posed where a joint moves it
+    uint32_t light = scene::kNoIndex; // into FrameView::areaLights: the one that it is the body of, which it does not hide
+};
+
 struct FrameView
 {
     CameraView camera;
@@ -52,6 +76,8 @@ struct FrameView
     const bake::Bake* bake = nullptr; // null: nothing is baked; what it points to stays as it is while frames show it
     std::vector<StaticDraw> statics;
     std::vector<CharacterDraw> characters;
+    std::vector<AreaLightDraw> areaLights;
+    std::vector<OccluderDraw> occluders; // none without a light
     std::vector<mat4> joints;
     std::vector<float> morphWeights;
     Knobs knobs;
@@ -59,12 +85,25 @@ struct FrameView
     uint32_t splitColumn = 0; // columns left of it show the final picture, the rest knobs.view
 
     /// What gives the first terms: null where nothing is baked or the knob turns it off.
-    [[nodiscard]] const bake::Bake* shownBake() const { return knobs.prt.isShown ? bake : nullptr; }
+    [[nodiscard]] const bake::Bake* shownBake() const { return knobs.prt.isShown && hasEnvironment() ? bake : nullptr; }
+    [[nodiscard]] bool hasEnvironment() const { return environment.image != scene::kNoIndex; }
+    [[nodiscard]] scene::LightShadow shadowOf(const AreaLightDraw& light) const { return light.shadow.value_or(knobs.area.shadow); }
+    /// Whether a light is shadowed by rays.
+    [[nodiscard]] bool tracesAreaLights() const
+    {
+        return std::ranges::any_of(areaLights, [this](const AreaLightDraw& light) {
+            return shadowOf(light) == scene::LightShadow::Traced || shadowOf(light) == scene::LightShadow::Reference;
+        });
+    }
+    /// Whether a pass traces rays through the scene.
+    [[nodiscard]] bool tracesRays() const { return (hasEnvironment() && !characters.empty()) || tracesAreaLights(); }
     /// Keeps the memory.
     void clear()
     {
         statics.clear();
         characters.clear();
+        areaLights.clear();
+        occluders.clear();
         joints.clear();
         morphWeights.clear();
     }

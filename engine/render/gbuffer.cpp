@@ -14,10 +14,12 @@ using graph::Use;
 constexpr gpu::Format kNormalFormat = gpu::Format::Rgba16Snorm;
 constexpr gpu::Format kAlbedoFormat = gpu::Format::Rgba8Srgb;
 constexpr gpu::Format kIrradianceFormat = gpu::Format::Rgba16Float;
+constexpr gpu::Format kMaterialFormat = gpu::Format::Rgba8Unorm;
 
-gpu::Pipeline makePipeline(gpu::Device& device, std::span<const gpu::ShaderDefine> defines)
+gpu::Pipeline makePipeline(gpu::Device& device, std::span<const gpu::ShaderDefine> defines, bool keepsMaterial)
 {
-    constexpr std::array formats{kNormalFormat, kAlbedoFormat, kIrradianceFormat};
+    constexpr std::array all{kNormalFormat, kAlbedoFormat, kIrradianceFormat, kMaterialFormat};
+    const std::span formats = std::span(all).first(keepsMaterial ? 4 : 3);
     return rasterPipeline(device, {.vertexShader = "gbuffer.vert",
                                    .fragmentShader = "gbuffer.frag",
                                    .defines = defines,
@@ -38,6 +40,8 @@ Faces facesOf(const DeviceMaterial& material, const mat4& world)
 
 GBufferSystem::FirstTerm GBufferSystem::firstTermOf(const FrameView& view, uint32_t object)
 {
+    if (!view.hasEnvironment())
+        return FirstTerm::None;
     if (view.shownBake() == nullptr)
         return FirstTerm::Environment;
     return object < view.statics.size() && view.statics[object].isBaked ? FirstTerm::Atlas : FirstTerm::Volume;
@@ -45,22 +49,24 @@ GBufferSystem::FirstTerm GBufferSystem::firstTermOf(const FrameView& view, uint3
 
 void GBufferSystem::makePipelines(FirstTerm firstTerm)
 {
-    MaterialPipelines& made = pipelines_[static_cast<size_t>(firstTerm)];
+    MaterialPipelines& made = pipelinesOf(firstTerm);
     if (made.plain)
         return;
     std::vector<gpu::ShaderDefine> defines;
     if (firstTerm != FirstTerm::Environment)
-        defines.push_back({firstTerm == FirstTerm::Atlas ? "BAKED" : "LOCAL_LIGHT"});
-    made.plain = makePipeline(*device_, defines);
+        defines.push_back({firstTerm == FirstTerm::Atlas ? "BAKED" : firstTerm == FirstTerm::Volume ? "LOCAL_LIGHT" : "DARK"});
+    if (keepsMaterial_)
+        defines.push_back({"KEEPS_MATERIAL"});
+    made.plain = makePipeline(*device_, defines, keepsMaterial_);
     defines.push_back({"TEXTURED"});
-    made.textured = makePipeline(*device_, defines);
+    made.textured = makePipeline(*device_, defines, keepsMaterial_);
     defines.push_back({"CUT_OUT"});
-    made.cutOut = makePipeline(*device_, defines);
+    made.cutOut = makePipeline(*device_, defines, keepsMaterial_);
 }
 
-const gpu::Pipeline& GBufferSystem::pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material) const
+const gpu::Pipeline& GBufferSystem::pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material)
 {
-    const auto& [plain, textured, cutOut] = pipelines_[static_cast<size_t>(firstTerm)];
+    const auto& [plain, textured, cutOut] = pipelinesOf(firstTerm);
     return material.alphaCutoff > 0.0f ? cutOut : material.albedoImage != shader::kNoImage ? textured : plain;
 }
 
@@ -93,14 +99,25 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
     std::ranges::sort(draws_);
 }
 
+bool GBufferSystem::isGlossy(const FrameView& view, const GpuScene& scene)
+{
+    const auto reflects = [&](const auto& draw) {
+        return std::ranges::any_of(scene.model(draw.model).materials, [](const DeviceMaterial& material) {
+            return material.block.specular > 0 || material.block.metallic > 0;
+        });
+    };
+    return !view.areaLights.empty() && (std::ranges::any_of(view.statics, reflects) || std::ranges::any_of(view.characters, reflects));
+}
+
 GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
                                const Posed& posed, uvec2 extent, bool isKept)
 {
+    keepsMaterial_ = isGlossy(view, scene);
     if (baked) {
         makePipelines(FirstTerm::Atlas);
         makePipelines(FirstTerm::Volume);
     } else {
-        makePipelines(FirstTerm::Environment);
+        makePipelines(view.hasEnvironment() ? FirstTerm::Environment : FirstTerm::None);
     }
     listDraws(view, scene, extent);
     graph::Pass pass = graph.add("g-buffer");
@@ -120,6 +137,8 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     g.normals = create("normals", kNormalFormat);
     g.albedo = create("albedo", kAlbedoFormat);
     g.unshadowed = create("unshadowed", kIrradianceFormat);
+    if (keepsMaterial_)
+        g.material = create("material", kMaterialFormat);
 
     pass.record([this, &view, &scene, frame](graph::Recorder& recorder) {
         const auto draw = [&](const Draw& each, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,

@@ -18,6 +18,7 @@ struct GBuffer
     graph::ImageRef normals;    // octahedral: geometric, shading; world
     graph::ImageRef albedo;     // a: 1 for what moves
     graph::ImageRef unshadowed; // first term of the irradiance, W/m^2; a: roughness
+    graph::ImageRef material;   // roughness, metallic, specular: where light is reflected by them
 };
 
 class GBufferSystem
@@ -28,6 +29,9 @@ public:
     /// Where nothing is, images other than the depth hold zero if they are kept, else anything.
     GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
                     const Posed& posed, uvec2 extent, bool isKept);
+
+    /// Whether an area light is reflected by something that is not purely diffuse.
+    static bool isGlossy(const FrameView& view, const GpuScene& scene);
 
 private:
     struct Draw
@@ -40,7 +44,7 @@ private:
     };
 
     /// Where an object's first term comes from.
-    enum class FirstTerm { Environment, Atlas, Volume };
+    enum class FirstTerm { Environment, Atlas, Volume, None };
     struct MaterialPipelines
     {
         gpu::Pipeline plain, textured, cutOut;
@@ -48,11 +52,13 @@ private:
 
     static FirstTerm firstTermOf(const FrameView& view, uint32_t object);
     void makePipelines(FirstTerm firstTerm);
+    MaterialPipelines& pipelinesOf(FirstTerm firstTerm) { return pipelines_[static_cast<size_t>(firstTerm)][keepsMaterial_ ? 1 : 0]; }
     void listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent);
-    [[nodiscard]] const gpu::Pipeline& pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material) const;
+    [[nodiscard]] const gpu::Pipeline& pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material);
 
     gpu::Device* device_;
-    std::array<MaterialPipelines, 3> pipelines_; // by FirstTerm, each made when first asked for
+    std::array<std::array<MaterialPipelines, 2>, 4> pipelines_; // by FirstTerm and whether materials are kept, made when first asked for
+    bool keepsMaterial_ = false;                                // of the frame that is declared
     std::vector<Draw> draws_;                    // of the frame that is declared, nearest first
 };
 

@@ -170,7 +170,6 @@ void GpuScene::makeCharacter(uint32_t slot, uint32_t model)
     made.normals = gpu::Buffer(*device_, "posed normals", vectorBytes);
     made.capsules = gpu::Buffer(*device_, "posed capsules", std::max<size_t>(skin.boneCount, 1) * sizeof(shader::CapsuleBlock));
     made.sphere = gpu::Buffer(*device_, "posed sphere", sizeof(shader::SphereBlock));
-    makeTracedCharacter(made, streams);
     character = std::move(made);
 }
 
@@ -189,6 +188,15 @@ void GpuScene::makeBounds(const FrameView& view)
     blockers_ = gpu::Buffer(*device_, "blockers", blockerCount_ * sizeof(shader::BlockerBlock));
 }
 
+void GpuScene::makeEnvironment(uint32_t index)
+{
+    std::optional<gpu::Image>& environment = slotOf(environments_, index);
+    if (environment)
+        return;
+    ++changes_;
+    environment = uploadEnvironment(*device_, assets_->environments[index]);
+}
+
 void GpuScene::dropCharacters(const FrameView& view)
 {
     for (uint32_t slot = 0; slot < characters_.size(); ++slot)
@@ -196,14 +204,11 @@ void GpuScene::dropCharacters(const FrameView& view)
             characters_[slot].reset();
             ++changes_;
         }
-    if (!view.characters.empty() || sceneInstances_ == 0)
+    if (!view.characters.empty() || blockerCount_ == 0)
         return;
-    scene_ = {};
-    sceneScratch_ = {};
-    bvhScene_ = {};
     blockers_ = {};
     capsules_ = {};
-    sceneInstances_ = capsuleCount_ = blockerCount_ = 0;
+    capsuleCount_ = blockerCount_ = 0;
 }
 
 void GpuScene::prepare(const FrameView& view)
@@ -221,15 +226,18 @@ void GpuScene::prepare(const FrameView& view)
         makeCharacter(draw.slot, draw.model);
     }
     dropCharacters(view);
-    std::optional<gpu::Image>& environment = slotOf(environments_, view.environment.image);
-    if (!environment) {
-        ++changes_;
-        environment = uploadEnvironment(*device_, assets_->environments[view.environment.image]);
+    for (const AreaLightDraw& light : view.areaLights) {
+        makeModel(light.model);
+        makeRest(light.model);
     }
-    if (view.characters.empty())
-        return;
-    makeTraced(view);
-    makeBounds(view);
+    if (view.hasEnvironment())
+        makeEnvironment(view.environment.image);
+    if (view.tracesRays())
+        makeTraced(view);
+    else
+        dropTraced();
+    if (!view.characters.empty())
+        makeBounds(view);
 }
 
 } // namespace antumbra::render

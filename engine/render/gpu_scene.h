@@ -81,7 +81,7 @@ public:
     [[nodiscard]] const gpu::Image& environment(uint32_t index) const { return *environments_[index]; }
     /// What the view's rays are traced with. Nothing is kept for the other backend.
     [[nodiscard]] RayBackend backend() const { return backend_; }
-    /// What rays are traced through, absent without characters: an acceleration structure, or a BvhScene and its instances.
+    /// What rays are traced through, absent where no pass traces any: an acceleration structure, or a BvhScene and its instances.
     [[nodiscard]] const gpu::Accel& scene() const { return scene_; }
     [[nodiscard]] const gpu::Buffer& sceneScratch() const { return sceneScratch_; }
     [[nodiscard]] const gpu::Buffer& bvhScene() const { return bvhScene_; }
@@ -106,6 +106,8 @@ private:
     void buildRest(uint32_t index);
     void makeNodes(uint32_t index);
     void makeBounds(const FrameView& view);
+    void makeEnvironment(uint32_t index);
+    void dropTraced();
     void dropCharacters(const FrameView& view);
 
     [[nodiscard]] bool usesBvh() const { return backend_ == RayBackend::ComputeBvh; }

@@ -10,8 +10,20 @@ void GpuScene::useBackend(RayBackend backend)
         return;
     ++changes_;
     backend_ = backend;
+    dropTraced();
+}
+
+void GpuScene::dropTraced()
+{
+    if (sceneInstances_ == 0)
+        return;
+    ++changes_;
     for (std::optional<DeviceCharacter>& character : characters_)
-        character.reset(); // and posed anew: only a changed pose is built or refitted
+        if (character) {
+            character->accel = {};
+            character->scratch = {};
+            character->nodes = {};
+        }
     for (std::optional<DeviceRest>& rest : rests_)
         if (rest)
             rest->accel = {};
@@ -28,17 +40,23 @@ void GpuScene::makeTraced(const FrameView& view)
 {
     for (const StaticDraw& draw : view.statics)
         usesBvh() ? makeNodes(draw.model) : buildRest(draw.model);
-    if (usesBvh())
-        for (const CharacterDraw& draw : view.characters)
+    for (const CharacterDraw& draw : view.characters) {
+        if (usesBvh())
             makeNodes(draw.model);
+        makeTracedCharacter(*characters_[draw.slot], *models_[draw.model]);
+    }
     makeTracedScene(static_cast<uint32_t>(view.statics.size() + view.characters.size()));
 }
 
 void GpuScene::makeTracedCharacter(DeviceCharacter& character, const DeviceModel& model)
 {
+    if (character.accel || character.nodes || model.triangleCount == 0)
+        return;
+    ++changes_;
+    character.isPosed = false; // anew: only a changed pose is built or refitted
     if (usesBvh()) {
         character.nodes = gpu::Buffer(*device_, "posed nodes", 2 * size_t{bvhLeafCount(model.triangleCount)} * sizeof(shader::BvhNode));
-    } else if (model.triangleCount > 0) {
+    } else {
         const gpu::AccelSizes sizes = gpu::trianglesSizes(*device_, model.vertexCount, model.triangleCount, true);
         character.accel = gpu::Accel(*device_, "posed triangles", VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, sizes.structure);
         character.scratch = gpu::Buffer(*device_, "build scratch", sizes.scratch);

@@ -34,6 +34,12 @@ constexpr KnobChoice kCullings[] = {
 };
 constexpr KnobChoice kScales[] = {choice("1", Scale::Full), choice("1/2", Scale::Half), choice("1/4", Scale::Quarter)};
 constexpr KnobChoice kSwitch[] = {{"on", 1}, {"off", 0}};
+constexpr KnobChoice kLightShadows[] = {
+    choice("none", scene::LightShadow::None),
+    choice("analytic", scene::LightShadow::Analytic),
+    choice("traced", scene::LightShadow::Traced),
+    choice("reference", scene::LightShadow::Reference),
+};
 constexpr KnobChoice kFilters[] = {{"0", 0}, {"3", 3}, {"5", 5}, {"7", 7}, {"9", 9}};
 constexpr KnobChoice kViews[] = {
     choice("final", ViewMode::Final),           choice("unshadowed", ViewMode::Unshadowed), choice("occluded", ViewMode::Occluded),
@@ -96,9 +102,11 @@ constexpr KnobDescription bakeKnob()
 }
 
 using Occlusion = OcclusionKnobs;
+using Area = AreaKnobs;
 using Reference = ReferenceKnobs;
 constexpr auto kOcclusion = &Knobs::occlusion;
 constexpr auto kPrt = &Knobs::prt;
+constexpr auto kArea = &Knobs::area;
 
 constexpr KnobDescription kTable[] = {
     knob<kOcclusion, &Occlusion::backend>("occlusion.backend", kBackends,
@@ -119,6 +127,9 @@ constexpr KnobDescription kTable[] = {
     knob<kPrt, &PrtKnobs::isShown>("prt.bake", kSwitch,
                                    "baked light where there is some; off: the environment's, as if nothing stood there"),
     knob<kPrt, &PrtKnobs::window>("prt.window", {0, 1, 0}, "against ringing of baked light: how much higher bands are damped; 0 is off"),
+    knob<kArea, &Area::shadow>("area.shadow", kLightShadows, "how area lights are shadowed, but for those that say so themselves"),
+    knob<kArea, &Area::pieces>("area.pieces", {1, 4096, 1}, "polygons of light a pixel and light; the rest of its shadow is sampled"),
+    knob<kArea, &Area::rays>("area.rays", {1, 4096, 1}, "shadow rays a pixel and light, where it is traced"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
     knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),
     knob<&Knobs::view>("view", kViews, "what the screen shows"),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bake/bake.h"
+#include "scene/shadow_components.h"
 
 #include <cstdint>
 #include <span>
@@ -38,6 +39,13 @@ struct PrtKnobs
     float window = 0;
 };
 
+struct AreaKnobs
+{
+    scene::LightShadow shadow = scene::LightShadow::Analytic; // of lights that say nothing themselves
+    uint32_t pieces = 64;
+    uint32_t rays = 16;
+};
+
 struct ReferenceKnobs
 {
     uint32_t samples = 0;
@@ -53,6 +61,7 @@ struct Knobs
 {
     OcclusionKnobs occlusion;
     PrtKnobs prt;
+    AreaKnobs area;
     ReferenceKnobs reference;
     CrowdKnobs crowd;
     ViewMode view = ViewMode::Final;

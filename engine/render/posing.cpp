@@ -1,5 +1,6 @@
 #include "render/posing.h"
 
+#include "render/frame_copy.h"
 #include "render/shader_structs.h"
 
 #include <algorithm>
@@ -12,14 +13,7 @@ namespace {
 
 using graph::Use;
 
-/// Copies to the frame's store.
-template <class T>
-VkDeviceAddress frameCopy(gpu::Device& device, std::span<const T> values)
-{
-    const gpu::FrameBytes bytes = device.frameBytes(std::max<size_t>(values.size_bytes(), 1));
-    std::memcpy(bytes.mapped, values.data(), values.size_bytes());
-    return bytes.address;
-}
+constexpr std::string_view kNoCharacters = "no DynamicSkinned in the scene";
 
 float greatestScale(const mat4& matrix)
 {
@@ -35,13 +29,13 @@ float greatestScale(const mat4& matrix)
 
 } // namespace
 
-void PosingSystem::makePipelines(RayBackend backend)
+void PosingSystem::makePipelines(const FrameView& view, RayBackend backend)
 {
-    if (backend == RayBackend::ComputeBvh && !bvhRefit_) {
+    if (view.tracesRays() && backend == RayBackend::ComputeBvh && !bvhRefit_) {
         bvhRefit_ = computePipeline(*device_, "bvh_refit.comp");
         bvhScene_ = computePipeline(*device_, "bvh_scene.comp");
     }
-    if (skinning_)
+    if (view.characters.empty() || skinning_)
         return;
     skinning_ = computePipeline(*device_, "skinning.comp");
     boneFit_ = computePipeline(*device_, "bone_fit.comp");
@@ -77,6 +71,10 @@ void PosingSystem::choose(const FrameView& view, GpuScene& scene)
 
 void PosingSystem::declareSkinning(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)
 {
+    uint64_t bytes = 0;
+    for (const CharacterDraw& draw : view.characters)
+        bytes += scene.character(draw.slot).positions.bytes() + scene.character(draw.slot).normals.bytes();
+    posed.vertices = graph.importBuffer("posed vertices", bytes);
     if (chosen_.empty()) {
         graph.skip("skinning", "no pose changed");
         return;
@@ -128,7 +126,7 @@ void PosingSystem::declareBounds(graph::FrameGraph& graph, const FrameView& view
 {
     graph::Pass pass = graph.add("bounds");
     pass.read(posed.vertices, Use::StorageRead);
-    posed.bounds = pass.write(posed.bounds, Use::StorageWrite);
+    posed.bounds = pass.write(graph.importBuffer("bounds", scene.capsules().bytes()), Use::StorageWrite);
     pass.record([this, &view, &scene](graph::Recorder& recorder) {
         const auto count = static_cast<uint32_t>(view.characters.size());
         const gpu::FrameBytes bytes = device_->frameBytes(count * sizeof(shader::BlockerSource));
@@ -151,24 +149,24 @@ void PosingSystem::declareBounds(graph::FrameGraph& graph, const FrameView& view
 Posed PosingSystem::declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene)
 {
     Posed posed;
-    if (view.characters.empty()) {
-        for (const std::string_view pass : {"skinning", "triangle builds", "scene build", "bounds"})
-            graph.skip(pass, "no DynamicSkinned in the scene");
-        return posed;
-    }
-    makePipelines(scene.backend());
+    const bool hasCharacters = !view.characters.empty();
+    makePipelines(view, scene.backend());
     choose(view, scene);
-    uint64_t bytes = 0;
-    for (const CharacterDraw& draw : view.characters)
-        bytes += scene.character(draw.slot).positions.bytes() + scene.character(draw.slot).normals.bytes();
-    posed.vertices = graph.importBuffer("posed vertices", bytes);
-    declareSkinning(graph, view, scene, posed);
-    posed.scene = graph.importBuffer("scene", scene.tracedBytes());
-    posed.sceneUse = scene.backend() == RayBackend::ComputeBvh ? Use::StorageRead : Use::AccelRead;
-    posed.bounds = graph.importBuffer("bounds", scene.capsules().bytes());
-    declareTriangleBuilds(graph, view, scene, posed);
-    declareSceneBuild(graph, view, scene, posed);
-    declareBounds(graph, view, scene, posed);
+    if (hasCharacters)
+        declareSkinning(graph, view, scene, posed);
+    else
+        graph.skip("skinning", kNoCharacters);
+    if (view.tracesRays()) {
+        declareTriangleBuilds(graph, view, scene, posed);
+        declareSceneBuild(graph, view, scene, posed);
+    } else {
+        for (const std::string_view pass : {"triangle builds", "scene build"})
+            graph.skip(pass, hasCharacters ? "no light is shadowed by rays" : kNoCharacters);
+    }
+    if (hasCharacters && view.hasEnvironment())
+        declareBounds(graph, view, scene, posed);
+    else
+        graph.skip("bounds", hasCharacters ? "no Environment in the scene" : kNoCharacters);
     return posed;
 }
 

@@ -9,12 +9,12 @@
 
 namespace antumbra::render {
 
-/// Handles behind which the frame's poses stand; absent without characters.
+/// Handles behind which the frame's poses stand; the first two absent without characters.
 struct Posed
 {
     graph::BufferRef vertices;                   // every character's posed streams
-    graph::BufferRef bounds;                     // BlockerBlock[] and CapsuleBlock[] in the world
-    graph::BufferRef scene;                      // what rays are traced through: GpuScene::tracedAddress
+    graph::BufferRef bounds;                     // BlockerBlock[] and CapsuleBlock[] in the world; for an Environment alone
+    graph::BufferRef scene;                      // what rays are traced through, where any are: GpuScene::tracedAddress
     graph::Use sceneUse = graph::Use::AccelRead; // by a pass that traces rays through it
 };
 
@@ -26,7 +26,7 @@ public:
     Posed declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene);
 
 private:
-    void makePipelines(RayBackend backend);
+    void makePipelines(const FrameView& view, RayBackend backend);
     void choose(const FrameView& view, GpuScene& scene);
     void declareSkinning(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
     void declareTriangleBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);

@@ -115,11 +115,13 @@ void PosingSystem::recordBvhScene(graph::Recorder& recorder, const FrameView& vi
 
 void PosingSystem::declareTriangleBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)
 {
+    const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
+    posed.scene = graph.importBuffer("scene", scene.tracedBytes());
+    posed.sceneUse = usesBvh ? Use::StorageRead : Use::AccelRead;
     if (chosen_.empty()) {
-        graph.skip("triangle builds", "no pose changed");
+        graph.skip("triangle builds", view.characters.empty() ? "no DynamicSkinned in the scene" : "no pose changed");
         return;
     }
-    const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
     graph::Pass pass = graph.add("triangle builds");
     pass.read(posed.vertices, usesBvh ? Use::StorageRead : Use::AccelBuildInput);
     posed.scene = pass.write(posed.scene, usesBvh ? Use::StorageWrite : Use::AccelWrite);
@@ -135,7 +137,8 @@ void PosingSystem::declareSceneBuild(graph::FrameGraph& graph, const FrameView& 
 {
     const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
     graph::Pass pass = graph.add("scene build");
-    pass.read(posed.vertices, usesBvh ? Use::StorageRead : Use::AccelBuildInput); // nothing but the order: behind the builds of this frame
+    if (posed.vertices) // nothing but the order: behind the builds of this frame
+        pass.read(posed.vertices, usesBvh ? Use::StorageRead : Use::AccelBuildInput);
     posed.scene = pass.write(posed.scene, usesBvh ? Use::StorageWrite : Use::AccelWrite);
     pass.record([this, &view, &scene, usesBvh](graph::Recorder& recorder) {
         if (usesBvh)

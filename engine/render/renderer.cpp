@@ -110,7 +110,7 @@ std::optional<Aov> aovOf(std::string_view name)
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent)
     : device_(&device), scene_(device, assets), blocks_(device, assets), prt_(device), gbuffer_(device), posing_(device),
-      occlusion_(device), reference_(device), composite_(device), overlay_(device), counters_(device), executor_(device),
+      occlusion_(device), areaLights_(device, assets), reference_(device), composite_(device), overlay_(device), counters_(device), executor_(device),
       picture_(makePicture(device, extent))
 {
 }
@@ -155,12 +155,13 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, baked, posed, extent(), captures_ != 0);
     const Traced traced = occlusion_.declare(graph_, view, frame, scene_, baked, g, posed, counters);
     const ImageRef reference = reference_.declare(graph_, view, frame, scene_, baked, g, posed);
+    const AreaLit lit = areaLights_.declare(graph_, view, frame, scene_, g, posed, counters);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});
     const Kept kept{.color = isCaptured(Aov::Color),
                     .irradiance = isCaptured(Aov::Irradiance),
                     .occluded = isCaptured(Aov::Occluded) || isCaptured(Aov::Cones)};
-    const Composed composed = composite_.declare(graph_, view, frame, g, traced, reference, blank, kept, counters);
+    const Composed composed = composite_.declare(graph_, view, frame, scene_, g, traced, reference, lit, blank, kept, counters);
     const ImageRef picture = overlay_.declare(graph_, composed.picture);
 
     declareCapture(Aov::Color, composed.color);
@@ -228,6 +229,12 @@ scene::ImageF Renderer::captured(Aov aov)
             image.values.insert(image.values.end(), {shown.x, shown.y, shown.z});
     }
     return image;
+}
+
+std::optional<uint32_t> Renderer::referenceSamples() const
+{
+    const std::optional<uint32_t> environment = reference_.samples(), lights = areaLights_.referenceSamples();
+    return environment && lights ? std::min(*environment, *lights) : environment ? environment : lights;
 }
 
 FrameReport Renderer::report() const

@@ -8,6 +8,7 @@
 #include "render/gpu_scene.h"
 #include "render/overlay.h"
 #include "render/posing.h"
+#include "render/shadow/area_light.h"
 #include "render/shadow/occlusion.h"
 #include "render/shadow/prt.h"
 #include "render/shadow/reference.h"
@@ -61,8 +62,8 @@ public:
     [[nodiscard]] Overlay& overlay() { return overlay_; }
     [[nodiscard]] FrameReport report() const;
     [[nodiscard]] MemoryReport memory() const;
-    /// Samples the reference has accumulated for the view as it stands.
-    [[nodiscard]] uint32_t referenceSamples() const { return reference_.samples(); }
+    /// Samples a pixel that every reference of the view has accumulated as it stands; none where nothing accumulates.
+    [[nodiscard]] std::optional<uint32_t> referenceSamples() const;
     [[nodiscard]] const graph::FrameGraph& frameGraph() const { return graph_; }
     [[nodiscard]] const graph::Plan& plan() const { return plan_; }
 
@@ -87,6 +88,7 @@ private:
     GBufferSystem gbuffer_;
     PosingSystem posing_;
     OcclusionSystem occlusion_;
+    AreaLightSystem areaLights_;
     ReferenceSystem reference_;
     CompositeSystem composite_;
     Overlay overlay_;

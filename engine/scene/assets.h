@@ -1,6 +1,7 @@
 // What a scene is made of, loaded once: components name its parts by index.
 #pragma once
 
+#include "scene/convex_body.h"
 #include "scene/images.h"
 #include "scene/model.h"
 
@@ -8,10 +9,20 @@
 
 namespace antumbra::scene {
 
+/// What shines or blocks, or a part of it. `joint` moves it out of bind space; where that is kNoIndex it is in the entity's own.
+struct BodyPart
+{
+    ConvexBody body;
+    uint32_t joint = kNoIndex;
+    bool isFrontOnly = false; // a triangle of a closed mesh: blocks on the side that is seen
+    bool isHollow = false;    // stands for a surface that may lie inside it: does not hide everything from there
+};
+
 struct Assets
 {
     std::vector<Model> models;
     std::vector<ImageF> environments; // equirectangular, W/(m^2 sr)
+    std::vector<BodyPart> bodyParts;  // of area lights and their occluders
 };
 
 } // namespace antumbra::scene

@@ -102,7 +102,9 @@ void addCamera(ecs::World& world, const SceneCamera& camera)
 
 void addEnvironment(ecs::World& world, Assets& assets, const SceneFile& scene)
 {
-    const SceneEnvironment environment = scene.environment.value_or(SceneEnvironment{.file = {}, .sky = vec3(0)});
+    if (!scene.environment)
+        return;
+    const SceneEnvironment& environment = *scene.environment;
     assets.environments.push_back(environment.file.empty() ? uniformSky(environment.sky) : loadRadiance(environment.file));
     const auto image = static_cast<uint32_t>(assets.environments.size() - 1);
     world.create(Environment{image, environment.rotationRadians, environment.intensity});

@@ -37,6 +37,21 @@ struct Occluder
     uint32_t greatestVertices = 32; // of one hull
 };
 
+/// The bodies of an AreaLight: a range of Assets::bodyParts, and what they are drawn with, in Assets::models.
+struct LightBodies
+{
+    uint32_t first = 0;
+    uint32_t count = 0;
+    uint32_t model = 0;
+};
+
+/// The bodies of an Occluder: a range of Assets::bodyParts.
+struct OccluderBodies
+{
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
 enum class SDFShape { Sphere, Box, RoundedBox, Torus, Capsule, Plane };
 enum class SDFOperation { Union, Subtract, Intersect, SmoothUnion };
 

@@ -118,6 +118,12 @@ BvhHit hitInScene(BvhScene scene, uint mask, bool anyWillDo, vec3 origin, vec3 d
     return hit;
 }
 
+// Anything is hit before `far`.
+bool isBlocked(uint64_t scene, vec3 origin, vec3 direction, float far)
+{
+    return hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, true, origin, direction, far).mask != 0u;
+}
+
 // How far off the dynamic surface is that the ray hits before any static one; negative where there is none. The search stands in the
 // program once, for CPU devices.
 float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far)

@@ -19,6 +19,12 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
     return rayQueryGetIntersectionTEXT(query, true);
 }
 
+// Anything is hit before `far`.
+bool isBlocked(uint64_t scene, vec3 origin, vec3 direction, float far)
+{
+    return closestHit(scene, kMaskStatic | kMaskDynamic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, far) >= 0.0;
+}
+
 // How far off a dynamic surface is that the ray hits, if the first it hits is one; negative if not. Any dynamic hit will do where nothing
 // static lies before it; only else must the closest one be known. One loop with one query in it: CPU devices run the code of every branch,
 // so the query must stand in the program once.

@@ -168,7 +168,7 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
     if (isPlanar && (isLevel(0u) || (!hasFront && (body.flags & kBodyFrontOnly) != 0u)))
         return true; // edge-on, or a side that does not block
     if (!isPlanar && !hasFront)
-        return false;
+        return (body.flags & kBodyHollow) != 0u;
     int first = edgeCount;
     for (uint i = 0u; i < body.edgeCount; ++i)
         addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);

@@ -7,6 +7,7 @@ const uint kNoFace = 0xffffu;
 const uint kBodyPlanar = 1u; // one polygon, no inside
 const uint kBodyTwoSided = 2u; // a planar light shines to both sides; what blocks does so from both
 const uint kBodyFrontOnly = 4u; // a triangle of a closed mesh: the side that is seen blocks
+const uint kBodyHollow = 8u; // what it stands for may lie inside it: hides nothing from there
 
 // A convex polyhedron or polygon. What is counted from its first is indexed relative to it.
 struct BodyBlock
@@ -44,6 +45,76 @@ struct BodyArrays
     uint64_t faces; // FaceBlock[]
     uint64_t corners; // uint[], into the body's vertices
     uint64_t edges; // EdgeBlock[]
+};
+
+const uint kAreaUnshadowed = 0u;
+const uint kAreaAnalytic = 1u;
+const uint kAreaTraced = 2u;
+
+struct AreaLightBlock
+{
+    vec3 radiance; // W/(m^2 sr)
+    uint body;
+    uint light; // that it is a part of, as `owners` count them
+};
+
+// Tiles are squares of pixels.
+const uint kAreaTileSize = 16u;
+const uint kAreaTileOccluders = 31u;
+
+// The occluders that can matter for a light in a tile.
+struct AreaTileBlock
+{
+    uint count; // more than kAreaTileOccluders: any may matter
+    uint occluders[kAreaTileOccluders]; // into the bodies
+};
+
+// The area lights of a frame and all that stands before them.
+struct AreaBlock
+{
+    BodyArrays arrays;
+    uint64_t lights; // AreaLightBlock[lightCount]
+    uint64_t owners; // uint[occluderCount]: the light that the occluder is the body of, or any other number
+    uint firstOccluder; // into the bodies
+    uint occluderCount;
+    uint lightCount;
+    uint tilesAcross;
+};
+
+const uint kNothingBefore = 0xffffffffu;
+
+struct AreaTiles
+{
+    uint64_t area; // AreaBlock
+    uint64_t tiles; // AreaTileBlock[lightCount], tile by tile, written
+    uint frame; // slot of a FrameBlock
+    uint depth;
+    uint tileCount;
+    uint padding;
+};
+
+struct AreaShade
+{
+    uint64_t area; // AreaBlock
+    uint64_t tiles; // AreaTileBlock[lightCount], tile by tile
+    uint64_t counters; // CounterBlock
+    uint64_t scene; // what rays are traced through
+    uint frame; // slot of a FrameBlock
+    uint depth;
+    uint normals;
+    uint albedo;
+    uint material;
+    uint ltcMatrix;
+    uint ltcAmplitude;
+    uint diffuse; // written: W/m^2, cosine-weighted
+    uint specular; // written: W/(m^2 sr)
+    uint diffuseBefore; // what these are added to, or the reference's means so far; kNothingBefore: nothing
+    uint specularBefore;
+    uint firstLight;
+    uint endLight;
+    uint mostPieces;
+    uint rays; // a light; the reference: 0 keeps the means
+    uint frameIndex; // of the reference's accumulation
 };
 
 #endif

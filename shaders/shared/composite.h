@@ -13,6 +13,7 @@ struct CounterBlock
     uint infPixels;
     uint negativePixels;
     uint fallbackPixels;
+    uint pieces;
 };
 
 const uint kViewFinal = 0u;
@@ -34,6 +35,8 @@ struct Composite
     uint albedo;
     uint unshadowed;
     uint traced; // traced pixels of the occluded irradiance
+    uint areaDiffuse; // of area lights: W/m^2,
+    uint areaSpecular; // W/(m^2 sr)
     int pixelScale; // of their image to the G-buffer: 1, 2, 4
     ivec2 lastTraced;
     uint reference; // kAbsent: none

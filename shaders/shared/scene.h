@@ -31,4 +31,16 @@ struct GBufferDraw
     uint flags;
 };
 
+// The body of an area light.
+struct LightBodyDraw
+{
+    vec4 worldFromLocal[3]; // rows
+    uint64_t positions; // vec3[], local
+    uint64_t normals; // vec3[]
+    vec3 radiance; // W/(m^2 sr)
+    float exposure;
+    uint frame; // slot of a FrameBlock
+    uint isTwoSided;
+};
+
 #endif

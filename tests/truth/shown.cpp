@@ -37,7 +37,7 @@ scene::ImageF Shown::reference(uint32_t samples)
     view_.knobs.reference.samples = samples;
     do
         draw();
-    while (renderer_.referenceSamples() < samples);
+    while (renderer_.referenceSamples().value_or(samples) < samples);
     scene::ImageF mean = capture(render::Aov::Occluded);
     view_.knobs.reference = before;
     return mean;

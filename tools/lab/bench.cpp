@@ -89,13 +89,12 @@ bool Bench::accumulate(uint32_t samples, const app::InterruptGuard& interrupt, c
 {
     view_.knobs = resolve(point_);
     view_.knobs.reference.samples = samples;
-    const bool hasCharacters = !view_.characters.empty(); // without them the first term is the truth
-    while (hasCharacters && renderer_.referenceSamples() < samples) {
+    do {
         if (interrupt.isInterrupted())
             return false;
         draw();
-        tell(renderer_.referenceSamples());
-    }
+        tell(renderer_.referenceSamples().value_or(samples));
+    } while (renderer_.referenceSamples().value_or(samples) < samples); // where nothing accumulates, the picture is the truth
     constexpr std::array aovs{render::Aov::Irradiance, render::Aov::Unshadowed, render::Aov::Depth};
     renderer_.capture(aovs);
     draw();

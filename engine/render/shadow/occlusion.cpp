@@ -106,9 +106,9 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
 Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
                                 const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
-    if (!posed.scene) {
+    if (!posed.bounds) {
         for (const std::string_view pass : {"occlusion trace", "occlusion filter"})
-            graph.skip(pass, "no DynamicSkinned in the scene");
+            graph.skip(pass, view.hasEnvironment() ? "no DynamicSkinned in the scene" : "no Environment in the scene");
         return {};
     }
     if (view.knobs.occlusion.backend == RayBackend::RayQuery && scene.backend() != RayBackend::RayQuery)

@@ -1,7 +1,7 @@
 #include "render/shadow/reference.h"
 
-#include <array>
-#include <bit>
+#include "render/shadow/fingerprint.h"
+
 
 namespace antumbra::render {
 
@@ -13,23 +13,6 @@ constexpr uint32_t kSamplesAFrame = 64; // small enough to keep a live view usab
 constexpr uint32_t kLiveSamples = 4096; // where a view asks for the reference and no number is set
 constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
 
-/// FNV-1a over the bytes of trivially copyable values.
-class Fingerprint
-{
-public:
-    template <class T>
-    Fingerprint& add(const T& value)
-    {
-        for (const auto byte : std::bit_cast<std::array<unsigned char, sizeof(T)>>(value))
-            hash_ = (hash_ ^ byte) * 0x100000001b3ull;
-        return *this;
-    }
-    [[nodiscard]] uint64_t value() const { return hash_; }
-
-private:
-    uint64_t hash_ = 0xcbf29ce484222325ull;
-};
-
 uint32_t wantedSamples(const Knobs& knobs)
 {
     if (knobs.reference.samples > 0)
@@ -38,19 +21,6 @@ uint32_t wantedSamples(const Knobs& knobs)
 }
 
 } // namespace
-
-uint64_t ReferenceSystem::fingerprint(const FrameView& view, RayBackend backend, uvec2 extent)
-{
-    Fingerprint print;
-    print.add(backend).add(extent).add(view.camera.eye).add(view.camera.rotation).add(view.camera.verticalFovRadians);
-    print.add(view.environment.image).add(view.environment.rotationRadians).add(view.environment.intensity);
-    print.add(view.shownBake()).add(view.knobs.prt.window);
-    for (const StaticDraw& draw : view.statics)
-        print.add(draw.model).add(draw.world).add(draw.isBaked);
-    for (const CharacterDraw& draw : view.characters)
-        print.add(draw.slot).add(draw.model).add(draw.world).add(draw.poseVersion);
-    return print.value();
-}
 
 const gpu::Pipeline& ReferenceSystem::tracePipeline(RayBackend backend, bool isLocal)
 {
@@ -71,10 +41,14 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
                                          const Baked& baked, const GBuffer& g, const Posed& posed)
 {
     const uint32_t wanted = wantedSamples(view.knobs);
-    if (wanted == 0 || !posed.scene) {
-        graph.skip("reference trace", wanted == 0 ? "reference.samples is 0" : "no DynamicSkinned in the scene");
-        graph.skip("reference accumulate", wanted == 0 ? "reference.samples is 0" : "no DynamicSkinned in the scene");
+    if (wanted == 0 || !posed.bounds) {
+        const std::string_view reason = wanted == 0             ? "reference.samples is 0"
+                                        : view.hasEnvironment() ? "no DynamicSkinned in the scene"
+                                                                : "no Environment in the scene";
+        graph.skip("reference trace", reason);
+        graph.skip("reference accumulate", reason);
         frames_ = 0;
+        isActive_ = false;
         return {};
     }
     const gpu::Pipeline& trace = tracePipeline(scene.backend(), static_cast<bool>(baked));
@@ -82,14 +56,15 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     const uvec2 extent = graph.extent(g.depth);
     const graph::History history = graph.history("reference mean", {.format = kMeanFormat, .extent = extent}, history_);
-    const uint64_t now = fingerprint(view, scene.backend(), extent);
+    const uint64_t now = fingerprintOf(view, scene.backend(), extent);
     if (now != seen_ || !history.valid)
         frames_ = 0;
     seen_ = now;
     samplesAFrame_ = kSamplesAFrame;
+    isActive_ = true;
 
     graph::ImageRef traced;
-    if (samples() < wanted) {
+    if (frames_ * kSamplesAFrame < wanted) {
         graph::Pass pass = graph.add("reference trace");
         pass.read(g.depth, Use::Sampled);
         pass.read(g.normals, Use::Sampled);

@@ -4,6 +4,7 @@
 #include "render/gbuffer.h"
 
 #include <array>
+#include <optional>
 
 namespace antumbra::render {
 
@@ -15,18 +16,18 @@ public:
     /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
     graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
                             const GBuffer& g, const Posed& posed);
-    /// Accumulated for the view as it stands.
-    [[nodiscard]] uint32_t samples() const { return frames_ * samplesAFrame_; }
+    /// Accumulated for the view as it stands; none where nothing is asked for, or nothing can be hidden.
+    [[nodiscard]] std::optional<uint32_t> samples() const { return isActive_ ? std::optional(frames_ * samplesAFrame_) : std::nullopt; }
 
 private:
     [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, bool isLocal);
-    [[nodiscard]] static uint64_t fingerprint(const FrameView& view, RayBackend backend, uvec2 extent);
 
     gpu::Device* device_;
     std::array<gpu::Pipeline, 4> trace_; // by backend and whether light is local, each made when first asked for
     gpu::Pipeline accumulate_;
     graph::HistorySlot history_;
     uint64_t seen_ = 0;
+    bool isActive_ = false;
     uint32_t frames_ = 0;
     uint32_t samplesAFrame_ = 0;
 };

@@ -1,0 +1,154 @@
+#include "app/shadow_bodies.h"
+
+#include "bake/hulls.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "ecs/each.h"
+#include "scene/animation.h"
+#include "scene/components.h"
+#include "scene/light_body.h"
+
+#include <fmt/format.h>
+
+namespace antumbra::app {
+
+namespace {
+
+using scene::AreaLight;
+using scene::Assets;
+using scene::BodyPart;
+using scene::ConvexBody;
+
+constexpr uint32_t kSegments = 16;          // of curved lights
+constexpr uint32_t kMostLightVertices = 62; // that shaders have room for
+constexpr uint32_t kMostLightTriangles = 256;
+
+/// The mesh that an entity shows when it stands at rest.
+std::optional<scene::Mesh> ownMesh(const ecs::World& world, const Assets& assets, ecs::Entity entity)
+{
+    const scene::Drawable* drawable = world.find<scene::Drawable>(entity);
+    return drawable != nullptr ? std::optional(scene::restMesh(assets.models[drawable->model])) : std::nullopt;
+}
+
+std::vector<ConvexBody> bodiesOf(const AreaLight& light, const std::optional<scene::Mesh>& mesh, const std::string& subject)
+{
+    if (light.shape == scene::LightShape::Mesh && !mesh)
+        throw Error("an AreaLight of shape mesh has no mesh", subject);
+    if (std::optional<ConvexBody> body = scene::lightBody(light, mesh ? &*mesh : nullptr, kSegments)) {
+        if (body->vertices.size() <= kMostLightVertices)
+            return {*std::move(body)};
+        throw Error(fmt::format("an AreaLight's mesh has {} vertices, at most {} are allowed", body->vertices.size(), kMostLightVertices),
+                    subject);
+    }
+    std::vector<ConvexBody> triangles = mesh ? scene::triangleBodies(*mesh) : std::vector<ConvexBody>{};
+    if (triangles.empty() || triangles.size() > kMostLightTriangles)
+        throw Error(fmt::format("an AreaLight shines by {} triangles, expected 1 to {}", triangles.size(), kMostLightTriangles), subject);
+    return triangles;
+}
+
+/// All of the bodies in one mesh.
+scene::Mesh meshOfAll(std::span<const ConvexBody> bodies)
+{
+    scene::Mesh all;
+    for (const ConvexBody& body : bodies) {
+        const scene::Mesh mesh = meshOf(body);
+        const auto first = static_cast<uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+        all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
+        all.uvs.insert(all.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+        all.triangleMaterials.insert(all.triangleMaterials.end(), mesh.triangleMaterials.begin(), mesh.triangleMaterials.end());
+        for (const uint32_t index : mesh.indices)
+            all.indices.push_back(first + index);
+    }
+    return all;
+}
+
+template <class T>
+scene::LightBodies addParts(Assets& assets, std::vector<T> parts)
+{
+    const auto first = static_cast<uint32_t>(assets.bodyParts.size());
+    for (T& part : parts)
+        assets.bodyParts.push_back(std::move(part));
+    return {first, static_cast<uint32_t>(parts.size()), 0};
+}
+
+void makeLights(ecs::World& world, Assets& assets, const std::string& subject)
+{
+    std::vector<std::pair<ecs::Entity, scene::LightBodies>> made;
+    for (auto [entity, light] : ecs::Each<ecs::Entity, const AreaLight>(world)) {
+        const std::vector<ConvexBody> bodies = bodiesOf(light, ownMesh(world, assets, entity), subject);
+        std::vector<BodyPart> parts;
+        for (const ConvexBody& body : bodies)
+            parts.push_back({body});
+        made.emplace_back(entity, addParts(assets, std::move(parts)));
+        made.back().second.model = static_cast<uint32_t>(assets.models.size());
+        scene::Mesh mesh = meshOfAll(bodies);
+        orderTriangles(mesh, mesh.positions);
+        assets.models.push_back(rigidModel("light", std::move(mesh), {}));
+    }
+    for (const auto& [entity, bodies] : made)
+        world.add(entity, bodies);
+}
+
+std::vector<mat4> restJoints(const scene::Model& model)
+{
+    scene::LocalPose pose;
+    setRest(pose, model);
+    std::vector<mat4> joints(model.joints.size()), nodes;
+    resolve(joints, nodes, pose, model);
+    return joints;
+}
+
+/// Of a model at rest: whole where it is convex, else by hulls or by its triangles.
+std::vector<BodyPart> partsAtRest(const scene::Model& model, const scene::Occluder& occluder)
+{
+    const scene::Mesh rest = scene::restMesh(model);
+    const std::optional<ConvexBody> whole = scene::meshBody(rest);
+    if (whole && whole->vertices.size() <= occluder.greatestVertices && occluder.shape == scene::OccluderShape::Hulls)
+        return {{*whole}};
+    std::vector<BodyPart> parts;
+    if (occluder.shape == scene::OccluderShape::Triangles) {
+        for (ConvexBody& triangle : scene::triangleBodies(rest))
+            parts.push_back({.body = std::move(triangle)});
+        return parts;
+    }
+    const std::vector<mat4> joints = restJoints(model);
+    for (bake::Hull& hull : bake::hullsOfModel(model, occluder.greatestVertices))
+        parts.push_back({.body = transformed(hull.body, joints[hull.joint]), .isHollow = true});
+    return parts;
+}
+
+std::vector<BodyPart> partsOf(const scene::Model& model, const scene::Occluder& occluder, bool isPosed, const std::string& subject)
+{
+    if (!isPosed)
+        return partsAtRest(model, occluder);
+    if (occluder.shape == scene::OccluderShape::Triangles)
+        logWarning("{}: an Occluder that moves blocks by a hull a bone, not by its triangles", subject);
+    std::vector<BodyPart> parts;
+    for (bake::Hull& hull : bake::hullsOfModel(model, occluder.greatestVertices))
+        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = true});
+    return parts;
+}
+
+void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject)
+{
+    std::vector<std::pair<ecs::Entity, scene::OccluderBodies>> made;
+    for (auto [entity, occluder, drawable, dynamic] :
+         ecs::Each<ecs::Entity, const scene::Occluder, const scene::Drawable, ecs::Maybe<const scene::DynamicSkinned>>(world)) {
+        const scene::LightBodies range =
+            addParts(assets, partsOf(assets.models[drawable.model], occluder, dynamic != nullptr, subject));
+        made.emplace_back(entity, scene::OccluderBodies{range.first, range.count});
+    }
+    for (const auto& [entity, bodies] : made)
+        world.add(entity, bodies);
+}
+
+} // namespace
+
+void makeShadowBodies(ecs::World& world, scene::Assets& assets, const std::string& subject)
+{
+    makeLights(world, assets, subject);
+    makeOccluders(world, assets, subject);
+}
+
+} // namespace antumbra::app

@@ -1,0 +1,249 @@
+#include "render/shadow/area_light.h"
+
+#include "bake/ltc.h"
+#include "render/shadow/fingerprint.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace antumbra::render {
+
+namespace {
+
+using graph::Use;
+using scene::LightShadow;
+
+constexpr uint32_t kReferenceRays = 64;    // a frame: small enough to keep a live view usable
+constexpr uint32_t kLiveSamples = 4096;    // of the reference, where no number is set
+constexpr uint32_t kOccludersALight = 8;   // of a pixel in closed form
+constexpr uint32_t kCutsAPolygon = 12;     // corners that it may gain
+constexpr uint32_t kMostPolygonCorners = 64;
+constexpr uint32_t kMostSilhouetteEdges = 64;
+constexpr gpu::Format kLitFormat = gpu::Format::Rgba16Float;
+constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
+
+std::string_view passOf(LightShadow shadow)
+{
+    switch (shadow) {
+    case LightShadow::None: return "area unshadowed";
+    case LightShadow::Traced: return "area traced";
+    case LightShadow::Reference: return "area reference";
+    default: return "area analytic";
+    }
+}
+
+int shaderShadowOf(LightShadow shadow)
+{
+    const bool isTraced = shadow == LightShadow::Traced || shadow == LightShadow::Reference;
+    return static_cast<int>(isTraced ? shader::kAreaTraced : shadow == LightShadow::None ? shader::kAreaUnshadowed : shader::kAreaAnalytic);
+}
+
+bool traces(LightShadow shadow) { return shadow == LightShadow::Traced || shadow == LightShadow::Reference; }
+
+/// Few different sizes, so that few pipelines are made as lights come and go.
+AreaSizes rounded(const AreaSizes& sizes)
+{
+    return {.isPlanar = sizes.isPlanar,
+            .outlineCorners = std::min(std::bit_ceil(sizes.outlineCorners + kCutsAPolygon), kMostPolygonCorners) - kCutsAPolygon,
+            .lightVertices = std::bit_ceil(sizes.lightVertices),
+            .silhouetteEdges = std::min(std::bit_ceil(sizes.silhouetteEdges), kMostSilhouetteEdges),
+            .faces = (sizes.faces + 31) / 32 * 32};
+}
+
+std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes)
+{
+    const auto polygonCorners = static_cast<int>(sizes.outlineCorners + kCutsAPolygon);
+    const auto edges = static_cast<int>(sizes.silhouetteEdges);
+    return {{"POLYGON_PLACES", static_cast<int>(kOccludersALight) + 4},
+            {"POLYGON_CORNERS", polygonCorners},
+            {"SILHOUETTE_EDGES", edges * static_cast<int>(kOccludersALight)},
+            {"SILHOUETTE_BODY_EDGES", edges},
+            {"FACE_WORDS", static_cast<int>(sizes.faces / 32)},
+            {"OUTLINE_CORNERS", static_cast<int>(sizes.outlineCorners)},
+            {"LIGHT_VERTICES", static_cast<int>(sizes.lightVertices)},
+            {"AREA_OCCLUDERS", static_cast<int>(kOccludersALight)}};
+}
+
+gpu::Image uploadedTable(gpu::Device& device, std::string_view label, uint32_t size, const std::vector<vec4>& texels)
+{
+    return gpu::uploadedImage(device, label, {.format = gpu::Format::Rgba32Float, .extent = uvec2(size)}, std::as_bytes(std::span(texels)));
+}
+
+uint32_t wantedSamples(const Knobs& knobs) { return knobs.reference.samples > 0 ? knobs.reference.samples : kLiveSamples; }
+
+} // namespace
+
+std::optional<uint32_t> AreaLightSystem::referenceSamples() const
+{
+    return hasReference_ ? std::optional(referenceFrames_ * kReferenceRays) : std::nullopt;
+}
+
+void AreaLightSystem::prepareTables(bool isGlossy)
+{
+    if (!isGlossy) {
+        ltcMatrix_ = {};
+        ltcAmplitude_ = {};
+    } else if (!ltcMatrix_) {
+        const bake::LtcTables tables = bake::loadLtcTables(projectPath("assets") / "fits");
+        ltcMatrix_ = uploadedTable(*device_, "LTC matrix", tables.size, tables.matrix);
+        ltcAmplitude_ = uploadedTable(*device_, "LTC amplitude", tables.size, tables.amplitude);
+    }
+}
+
+const gpu::Pipeline& AreaLightSystem::pipelineFor(const Variant& variant)
+{
+    const auto found = std::ranges::find(pipelines_, variant, &Made::variant);
+    if (found != pipelines_.end())
+        return found->pipeline;
+    std::vector<gpu::ShaderDefine> defines = sizeDefines(variant.sizes);
+    defines.push_back({"SHADOW", shaderShadowOf(variant.shadow)});
+    if (variant.sizes.isPlanar)
+        defines.push_back({"PLANAR_LIGHTS"});
+    if (variant.isGlossy)
+        defines.push_back({"GLOSSY"});
+    if (variant.shadow == LightShadow::Reference)
+        defines.push_back({"REFERENCE"});
+    if (variant.backend == RayBackend::ComputeBvh)
+        defines.push_back({"COMPUTE_BVH"});
+    pipelines_.push_back({variant, computePipeline(*device_, "area_shade.comp", defines)});
+    return pipelines_.back().pipeline;
+}
+
+graph::BufferRef AreaLightSystem::declareTiles(graph::FrameGraph& graph, const Frame& frame, uvec2 tileCount)
+{
+    if (!tiles_)
+        tiles_ = computePipeline(*device_, "area_tiles.comp");
+    const uint32_t count = tileCount.x * tileCount.y;
+    graph::Pass pass = graph.add("area tiles");
+    pass.read(frame.g->depth, Use::Sampled);
+    const graph::BufferRef tiles =
+        pass.createBuffer("area tiles", size_t{count} * bodies_.lightCount() * sizeof(shader::AreaTileBlock), Use::StorageWrite);
+    pass.record([this, area = frame.area, slot = frame.slot, depth = frame.g->depth, tiles, count](graph::Recorder& recorder) {
+        recorder.dispatch(tiles_,
+                          shader::AreaTiles{.area = area,
+                                            .tiles = recorder.address(tiles),
+                                            .frame = slot,
+                                            .depth = recorder.sampled(depth),
+                                            .tileCount = count,
+                                            .padding = 0},
+                          {count, 1}, {64, 1});
+    });
+    return tiles;
+}
+
+void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const AreaLightRange& range, const AreaLit& before,
+                                   const AreaLit& made, graph::BufferRef counters, uint32_t rays, uint32_t frameIndex)
+{
+    const GBuffer& g = *frame.g;
+    for (const graph::ImageRef image : {g.depth, g.normals, g.albedo, g.material, before.diffuse, before.specular})
+        if (image)
+            pass.read(image, Use::Sampled);
+    const bool isTraced = traces(range.shadow);
+    if (isTraced)
+        pass.read(frame.posed->scene, frame.posed->sceneUse);
+    else if (frame.tiles)
+        pass.read(frame.tiles, Use::StorageRead);
+    const gpu::Pipeline& pipeline = pipelineFor({range.shadow, frame.isGlossy, isTraced ? frame.scene->backend() : RayBackend::Auto,
+                                                 rounded(bodies_.sizes())});
+    const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
+    pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range, before,
+                 made, counters, traced, rays, frameIndex,
+                 mostPieces = frame.view->knobs.area.pieces](graph::Recorder& recorder) {
+        const auto sampled = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNothingBefore; };
+        recorder.dispatch(pipeline,
+                          shader::AreaShade{.area = area,
+                                            .tiles = tiles ? recorder.address(tiles) : 0,
+                                            .counters = recorder.address(counters),
+                                            .scene = traced,
+                                            .frame = slot,
+                                            .depth = recorder.sampled(g.depth),
+                                            .normals = recorder.sampled(g.normals),
+                                            .albedo = recorder.sampled(g.albedo),
+                                            .material = sampled(g.material),
+                                            .ltcMatrix = ltcMatrix_.sampledSlot(),
+                                            .ltcAmplitude = ltcAmplitude_.sampledSlot(),
+                                            .diffuse = recorder.storage(made.diffuse),
+                                            .specular = made.specular ? recorder.storage(made.specular) : 0,
+                                            .diffuseBefore = sampled(before.diffuse),
+                                            .specularBefore = sampled(before.specular),
+                                            .firstLight = range.first,
+                                            .endLight = range.end,
+                                            .mostPieces = mostPieces,
+                                            .rays = rays,
+                                            .frameIndex = frameIndex},
+                          recorder.extent(g.depth));
+    });
+}
+
+AreaLit AreaLightSystem::declareReference(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range,
+                                          graph::BufferRef& counters)
+{
+    const uvec2 extent = graph.extent(frame.g->depth);
+    const graph::ImageDesc desc{.format = kMeanFormat, .extent = extent};
+    const graph::History diffuse = graph.history("area reference, diffuse", desc, diffuseHistory_);
+    const graph::History specular =
+        frame.isGlossy ? graph.history("area reference, specular", desc, specularHistory_) : graph::History{};
+    const uint64_t now = fingerprintOf(*frame.view, frame.scene->backend(), extent);
+    if (now != seen_ || !diffuse.valid)
+        referenceFrames_ = 0;
+    seen_ = now;
+    const bool isDone = referenceFrames_ * kReferenceRays >= wantedSamples(frame.view->knobs);
+    graph::Pass pass = graph.add(passOf(range.shadow));
+    counters = pass.write(counters, Use::StorageWrite);
+    const AreaLit mean{pass.write(diffuse.now, Use::StorageWrite),
+                       frame.isGlossy ? pass.write(specular.now, Use::StorageWrite) : graph::ImageRef{}};
+    const AreaLit before = referenceFrames_ > 0 ? AreaLit{diffuse.before, specular.before} : AreaLit{};
+    declareShade(pass, frame, range, before, mean, counters, isDone ? 0 : kReferenceRays, referenceFrames_);
+    referenceFrames_ += isDone ? 0 : 1;
+    return mean;
+}
+
+AreaLit AreaLightSystem::declareLights(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range, const AreaLit& before,
+                                       graph::BufferRef& counters)
+{
+    graph::Pass pass = graph.add(passOf(range.shadow));
+    counters = pass.write(counters, Use::StorageWrite);
+    const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth};
+    const AreaLit made{pass.create("area diffuse", desc, Use::StorageWrite),
+                       frame.isGlossy ? pass.create("area specular", desc, Use::StorageWrite) : graph::ImageRef{}};
+    declareShade(pass, frame, range, before, made, counters, frame.view->knobs.area.rays, 0);
+    return made;
+}
+
+void AreaLightSystem::skipAll(graph::FrameGraph& graph)
+{
+    for (const std::string_view pass : {"area tiles", "area analytic", "area unshadowed", "area traced", "area reference"})
+        graph.skip(pass, "no AreaLight in the scene");
+    prepareTables(false);
+}
+
+AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t slot, const GpuScene& scene, const GBuffer& g,
+                                 const Posed& posed, graph::BufferRef& counters)
+{
+    hasReference_ = false;
+    if (view.areaLights.empty()) {
+        skipAll(graph);
+        return {};
+    }
+    const uvec2 tileCount = (graph.extent(g.depth) + shader::kAreaTileSize - 1u) / shader::kAreaTileSize;
+    Frame frame{.view = &view,
+                .scene = &scene,
+                .g = &g,
+                .posed = &posed,
+                .area = bodies_.write(view, tileCount.x),
+                .tiles = {},
+                .slot = slot,
+                .isGlossy = static_cast<bool>(g.material)};
+    prepareTables(frame.isGlossy);
+    AreaLit lit;
+    for (const AreaLightRange& range : bodies_.ranges()) {
+        if (range.shadow == LightShadow::Analytic)
+            frame.tiles = declareTiles(graph, frame, tileCount);
+        hasReference_ = hasReference_ || range.shadow == LightShadow::Reference;
+        lit = range.shadow == LightShadow::Reference ? declareReference(graph, frame, range, counters)
+                                                     : declareLights(graph, frame, range, lit, counters);
+    }
+    return lit;
+}
+
+} // namespace antumbra::render

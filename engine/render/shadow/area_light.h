@@ -1,0 +1,78 @@
+// Light of area lights on what is seen, less what stands before them: in closed form (KT, Sakurikar, Narayanan 2021, as corrected in
+// methods/area-shadows.md), by shadow rays, or accumulated to the truth. The approximations are the tables of linearly transformed cosines
+// (bake/ltc.h), which the traced methods do without, and bodies in place of meshes (app/shadow_bodies.h), which they do not need.
+#pragma once
+
+#include "render/gbuffer.h"
+#include "render/shadow/area_bodies.h"
+
+namespace antumbra::render {
+
+/// Absent without area lights.
+struct AreaLit
+{
+    graph::ImageRef diffuse;  // W/m^2, cosine-weighted, without what metal swallows
+    graph::ImageRef specular; // W/(m^2 sr) towards the eye; absent where nothing reflects so
+};
+
+class AreaLightSystem
+{
+public:
+    AreaLightSystem(gpu::Device& device, const scene::Assets& assets) : device_(&device), bodies_(device, assets) {}
+
+    AreaLit declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
+                    const Posed& posed, graph::BufferRef& counters);
+    /// Points a light and pixel that the reference has accumulated for the view as it stands; none where no light is shadowed by it.
+    [[nodiscard]] std::optional<uint32_t> referenceSamples() const;
+
+private:
+    /// What a pipeline is made for.
+    struct Variant
+    {
+        scene::LightShadow shadow;
+        bool isGlossy;
+        RayBackend backend;
+        AreaSizes sizes; // as good as equal for what the pipeline does not depend on
+
+        friend bool operator==(const Variant&, const Variant&) = default;
+    };
+    struct Made
+    {
+        Variant variant;
+        gpu::Pipeline pipeline;
+    };
+    /// The frame's, as its passes share it.
+    struct Frame
+    {
+        const FrameView* view;
+        const GpuScene* scene;
+        const GBuffer* g;
+        const Posed* posed;
+        VkDeviceAddress area;
+        graph::BufferRef tiles;
+        uint32_t slot; // of the FrameBlock
+        bool isGlossy;
+    };
+
+    void skipAll(graph::FrameGraph& graph);
+    const gpu::Pipeline& pipelineFor(const Variant& variant);
+    void prepareTables(bool isGlossy);
+    graph::BufferRef declareTiles(graph::FrameGraph& graph, const Frame& frame, uvec2 tileCount);
+    AreaLit declareReference(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range, graph::BufferRef& counters);
+    AreaLit declareLights(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range, const AreaLit& before,
+                          graph::BufferRef& counters);
+    void declareShade(graph::Pass& pass, const Frame& frame, const AreaLightRange& range, const AreaLit& before, const AreaLit& made,
+                      graph::BufferRef counters, uint32_t rays, uint32_t frameIndex);
+
+    gpu::Device* device_;
+    AreaBodies bodies_;
+    std::vector<Made> pipelines_; // each made when first asked for
+    gpu::Pipeline tiles_;
+    gpu::Image ltcMatrix_, ltcAmplitude_; // only while something glossy is lit
+    graph::HistorySlot diffuseHistory_, specularHistory_;
+    uint64_t seen_ = 0;
+    uint32_t referenceFrames_ = 0;
+    bool hasReference_ = false;
+};
+
+} // namespace antumbra::render

@@ -1,0 +1,233 @@
+// Light of area lights that reaches what is seen, past what stands before them. Variants: SHADOW is kAreaUnshadowed, kAreaAnalytic (KT et al.
+// 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its points anew each frame; GLOSSY
+// reflects by GGX too; COMPUTE_BVH traces without ray queries; sizes as in lib/area.glsl.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindless.glsl"
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "lib/frame.glsl"
+#include "shared/composite.h"
+#include "shared/occlusion.h"
+#ifndef SHADOW
+#define SHADOW 1
+#endif
+#ifndef POLYGON_PLACES
+#define POLYGON_PLACES 12
+#define POLYGON_CORNERS 32
+#define SILHOUETTE_EDGES 128
+#define SILHOUETTE_BODY_EDGES 64
+#define FACE_WORDS 4
+#define OUTLINE_CORNERS 30
+#define LIGHT_VERTICES 64
+#define AREA_OCCLUDERS 8
+#endif
+#include "lib/area.glsl"
+#include "lib/surface.glsl"
+#include "lib/hemisphere.glsl"
+#ifdef GLOSSY
+#include "lib/ltc.glsl"
+#include "lib/ggx.glsl"
+#endif
+#if SHADOW == 2
+#ifdef COMPUTE_BVH
+#include "lib/bvh.glsl"
+#else
+#include "lib/ray_query.glsl"
+#endif
+#include "lib/light_points.glsl"
+#endif
+
+layout(buffer_reference, scalar) readonly buffer Areas { AreaBlock block; };
+layout(buffer_reference, scalar) readonly buffer Lights { AreaLightBlock block[]; };
+layout(buffer_reference, scalar) readonly buffer Tiles { AreaTileBlock block[]; };
+layout(buffer_reference, scalar) readonly buffer Owners { uint light[]; };
+layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
+layout(push_constant, scalar) uniform Push { AreaShade pc; };
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+struct Surface
+{
+    vec3 position; // moved off the surface past its errors
+    vec3 normal; // shading
+    vec3 toEye; // unit
+    mat3 tangentSpace; // from the world: across, on the side of the eye; beside; normal
+    vec3 f0; // colour of the mirror reflection, seen head on
+    float roughness;
+    float diffuse; // share of the light that is reflected diffusely, before albedo
+};
+
+struct Received
+{
+    vec3 diffuse; // W/m^2, cosine-weighted
+    vec3 specular; // W/(m^2 sr) towards the eye
+};
+
+uint pieceCount = 0u;
+bool isFallback = false;
+
+Surface surfaceAt(ivec2 pixel, float depth)
+{
+    vec4 octahedral = texelFetch(sampledImages[pc.normals], pixel, 0);
+    vec3 position = worldPosition(frameBlock, vec2(pixel) + 0.5, depth);
+    vec3 normal = unitFromOctahedral(octahedral.zw);
+    vec3 toEye = normalize(frameBlock.eye - position);
+    vec3 origin = rayOrigin(position, unitFromOctahedral(octahedral.xy), frameBlock.eye);
+    vec3 across = toEye - normal * dot(normal, toEye);
+    across = dot(across, across) > 1.0e-8 ? normalize(across) : tangentFrame(normal)[0];
+    mat3 tangentSpace = transpose(mat3(across, cross(normal, across), normal));
+#ifdef GLOSSY
+    vec4 material = texelFetch(sampledImages[pc.material], pixel, 0); // roughness, metallic, specular
+    vec3 albedo = texelFetch(sampledImages[pc.albedo], pixel, 0).rgb;
+    return Surface(origin, normal, toEye, tangentSpace, mix(vec3(0.04 * material.z), albedo, material.y), material.x, 1.0 - material.y);
+#else
+    return Surface(origin, normal, toEye, tangentSpace, vec3(0.0), 1.0, 1.0);
+#endif
+}
+
+#if SHADOW == 2
+
+float hashed(uvec3 v)
+{
+    // PCG in three dimensions (Jarzynski and Olano 2020).
+    v = v * 1664525u + 1013904223u;
+    v += v.yzx * v.zxy;
+    v ^= v >> 16u;
+    v += v.yzx * v.zxy;
+    return float((v.x ^ v.y ^ v.z) >> 8u) / 16777216.0;
+}
+
+Received received(BodyArrays arrays, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
+{
+    BodyBlock body = Bodies(arrays.bodies).body[light.body];
+    Received sum = Received(vec3(0.0), vec3(0.0));
+    float area = litArea(arrays, body, s.position);
+    uvec3 seed = uvec3(uvec2(pixel), 2u * index);
+    vec2 shift = vec2(hashed(seed), hashed(seed + uvec3(0u, 0u, 1u)));
+    uint first = 0u;
+#ifdef REFERENCE
+    first = pc.frameIndex * pc.rays;
+#endif
+    for (uint i = 0u; i < pc.rays && area > 0.0; ++i) {
+        // The R2 sequence (Roberts 2018), another turn of it for every pixel.
+        vec2 u = fract(shift + vec2(uvec2(first + i) * uvec2(3242174889u, 2447445414u)) * 2.3283064365386963e-10);
+        LightPoint p = pointOnLight(arrays, body, s.position, area, u);
+        float distance2 = dot(p.position, p.position);
+        vec3 direction = p.position * inversesqrt(max(distance2, 1.0e-20));
+        float cosine = dot(direction, s.normal), cosineLight = -dot(direction, p.normal);
+        if (cosine <= 0.0 || cosineLight <= 0.0 ||
+            isBlocked(pc.scene, s.position, direction, sqrt(distance2) * 0.9999))
+            continue;
+        float weight = cosine * cosineLight * area / max(distance2, 1.0e-20);
+        sum.diffuse += weight;
+#ifdef GLOSSY
+        sum.specular += weight * ggxReflection(s.normal, s.toEye, direction, max(s.roughness * s.roughness, 1.0e-3), s.f0);
+#endif
+    }
+    vec3 scale = light.radiance / float(max(pc.rays, 1u));
+    return Received(sum.diffuse * scale, sum.specular * scale);
+}
+
+#else
+
+// Any corner is above the surface's plane.
+bool isOutlineAbove(vec3 normal)
+{
+    float highest = -1.0;
+    for (int i = 0; i < outlineCount; ++i)
+        highest = max(highest, dot(normal, outline[i]));
+    return highest > 0.0;
+}
+
+void addOccluders(AreaBlock area, uint index, BodyBlock body, Surface s, ivec2 pixel)
+{
+    uvec2 tile = uvec2(pixel) / kAreaTileSize;
+    uint at = (tile.y * area.tilesAcross + tile.x) * area.lightCount + index;
+    uint count = Tiles(pc.tiles).block[at].count;
+    bool isListed = count <= kAreaTileOccluders;
+    count = isListed ? count : area.occluderCount;
+    for (uint i = 0u; i < count; ++i) {
+        uint occluder = isListed ? Tiles(pc.tiles).block[at].occluders[i] : area.firstOccluder + i;
+        bool isOwn = !isListed && Owners(area.owners).light[i] == Lights(area.lights).block[index].light;
+        if (!isOwn)
+            addOccluder(area.arrays, body, Bodies(area.arrays.bodies).body[occluder], s.position);
+    }
+}
+
+Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
+{
+    BodyBlock body = Bodies(area.arrays.bodies).body[light.body];
+    if (!beginLight(area.arrays, body, s.position) || !isOutlineAbove(s.normal))
+        return Received(vec3(0.0), vec3(0.0));
+#if SHADOW == 1
+    addOccluders(area, index, body, s, pixel);
+#endif
+    AreaShare diffuse = areaShare(s.tangentSpace, s.normal, pc.mostPieces);
+    pieceCount += diffuse.pieces;
+    isFallback = isFallback || diffuse.fallbacks > 0u || isOccluderLost;
+    Received sum = Received(light.radiance * (kPi * diffuse.visible), vec3(0.0));
+#ifdef GLOSSY
+    LtcLobe lobe = ltcLobe(pc.ltcMatrix, pc.ltcAmplitude, s.roughness, clamp(dot(s.normal, s.toEye), 0.0, 1.0));
+    AreaShare mirrored = areaShare(lobe.toCosine * s.tangentSpace, s.normal, pc.mostPieces);
+    pieceCount += mirrored.pieces;
+    isFallback = isFallback || mirrored.fallbacks > 0u;
+    sum.specular = light.radiance * (s.f0 * lobe.amplitude.x + (1.0 - s.f0) * lobe.amplitude.y) * mirrored.visible;
+#endif
+    return sum;
+}
+
+#endif
+
+void count(Received sum)
+{
+    vec3 both = sum.diffuse + sum.specular;
+    bool nan = any(isnan(both)), inf = !nan && any(isinf(both)), negative = !nan && any(lessThan(min(sum.diffuse, sum.specular), vec3(0.0)));
+    uint pieces = subgroupAdd(pieceCount), fallbacks = subgroupAdd(uint(isFallback)), nans = subgroupAdd(uint(nan)),
+         infs = subgroupAdd(uint(inf)), negatives = subgroupAdd(uint(negative));
+    if (!subgroupElect() || pieces + fallbacks + nans + infs + negatives == 0u)
+        return;
+    atomicAdd(Counters(pc.counters).block.pieces, pieces);
+    atomicAdd(Counters(pc.counters).block.fallbackPixels, fallbacks);
+    atomicAdd(Counters(pc.counters).block.nanPixels, nans);
+    atomicAdd(Counters(pc.counters).block.infPixels, infs);
+    atomicAdd(Counters(pc.counters).block.negativePixels, negatives);
+}
+
+vec3 addedUp(uint before, ivec2 pixel, vec3 value)
+{
+    vec3 sum = before != kNothingBefore ? texelFetch(sampledImages[before], pixel, 0).rgb : vec3(0.0);
+#ifdef REFERENCE
+    return pc.rays > 0u ? sum + (value - sum) / float(pc.frameIndex + 1u) : sum;
+#else
+    return sum + value;
+#endif
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    bool isInside = all(lessThan(pixel, textureSize(sampledImages[pc.depth], 0)));
+    float depth = isInside ? texelFetch(sampledImages[pc.depth], pixel, 0).x : 0.0;
+    Received sum = Received(vec3(0.0), vec3(0.0));
+    if (depth > 0.0) {
+        AreaBlock area = Areas(pc.area).block;
+        Surface s = surfaceAt(pixel, depth);
+        for (uint i = pc.firstLight; i < pc.endLight; ++i) {
+            AreaLightBlock light = Lights(area.lights).block[i];
+#if SHADOW == 2
+            Received one = received(area.arrays, light, i, s, pixel);
+#else
+            Received one = received(area, light, i, s, pixel);
+#endif
+            sum = Received(sum.diffuse + one.diffuse, sum.specular + one.specular);
+        }
+        sum.diffuse *= s.diffuse;
+    }
+    count(sum);
+    if (!isInside)
+        return;
+    imageStore(storageImages[pc.diffuse], pixel, vec4(addedUp(pc.diffuseBefore, pixel, sum.diffuse), 0.0));
+#ifdef GLOSSY
+    imageStore(storageImages[pc.specular], pixel, vec4(addedUp(pc.specularBefore, pixel, sum.specular), 0.0));
+#endif
+}
