@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -12,84 +13,89 @@ namespace {
 
 constexpr double kShareOfExtent = 1e-6;
 constexpr double kShareOfPlace = 4 * 0x1p-24; // four roundings to float
+constexpr double kSameFace = 4;               // times roundingOf(): as far off a face's plane its own corners may be
+constexpr double kSameSurface = 8;            // and in front of it all others
 constexpr uint32_t kNoRegion = ~0u;
 
+double farthestCoordinate(std::span<const vec3> points)
+{
+    float farthest = 0;
+    for (const vec3& point : points)
+        farthest = std::max({farthest, std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+    return farthest;
+}
+
+/// The plane of one face or several, by their areas.
 struct Plane
 {
-    glm::dvec3 middle{0};
-    glm::dvec3 normal{0};
-    double area = 0;
-    double width = 0; // area over longest edge: how short a base the normal rests on
-};
+    glm::dvec3 twiceArea{0}; // along the normal
+    glm::dvec3 moment{0};    // middle times twice the area
+    double weight = 0;       // sum of the parts' twice the area
+    double length = 0;       // of the longest edge
 
-Plane planeOf(const ConvexBody& body, uint32_t face, const glm::dvec3& normal)
-{
-    Plane plane{.normal = normal};
-    const std::span<const uint32_t> loop = body.loop(face);
-    const glm::dvec3 origin(body.vertices[loop[0]]);
-    double longest = 0;
-    for (size_t i = 0; i < loop.size(); ++i) {
-        const glm::dvec3 a = glm::dvec3(body.vertices[loop[i]]) - origin;
-        const glm::dvec3 b = glm::dvec3(body.vertices[loop[(i + 1) % loop.size()]]) - origin;
-        plane.middle += a / static_cast<double>(loop.size());
-        plane.area += 0.5 * glm::dot(glm::cross(a, b), normal);
-        longest = std::max(longest, glm::length(b - a));
+    void add(std::span<const uint32_t> loop, std::span<const vec3> vertices)
+    {
+        const glm::dvec3 origin(vertices[loop[0]]);
+        for (size_t i = 1; i + 1 < loop.size(); ++i) {
+            const glm::dvec3 a(vertices[loop[i]]);
+            const glm::dvec3 b(vertices[loop[i + 1]]);
+            const glm::dvec3 part = glm::cross(a - origin, b - origin);
+            twiceArea += part;
+            moment += glm::length(part) / 3 * (origin + a + b);
+            weight += glm::length(part);
+        }
+        for (size_t i = 0; i < loop.size(); ++i)
+            length = std::max(length, glm::distance(glm::dvec3(vertices[loop[i]]), glm::dvec3(vertices[loop[(i + 1) % loop.size()]])));
     }
-    plane.middle += origin;
-    plane.width = longest > 0 ? plane.area / longest : 0;
-    return plane;
-}
+    [[nodiscard]] double area() const { return 0.5 * glm::length(twiceArea); }
+    [[nodiscard]] double width() const { return area() / length; } // how short a base the normal rests on
+    [[nodiscard]] glm::dvec3 fromMiddle(vec3 point) const { return glm::dvec3(point) - moment / weight; }
+    [[nodiscard]] double height(vec3 point) const { return glm::dot(fromMiddle(point), glm::normalize(twiceArea)); }
+};
 
 std::vector<Plane> planesOf(const ConvexBody& body)
 {
-    const std::vector<glm::dvec3> normals = faceNormals(body);
-    std::vector<Plane> planes;
-    planes.reserve(normals.size());
-    for (uint32_t face = 0; face < normals.size(); ++face)
-        planes.push_back(planeOf(body, face, normals[face]));
+    std::vector<Plane> planes(body.faces.size());
+    for (uint32_t face = 0; face < planes.size(); ++face)
+        planes[face].add(body.loop(face), body.vertices);
     return planes;
 }
 
-double height(const Plane& plane, vec3 point) { return glm::dot(glm::dvec3(point) - plane.middle, plane.normal); }
-
-/// How far a point may lie off the plane and still be on it.
-double slack(const Plane& plane, vec3 point, double rounding)
-{
-    const double reach = glm::length(glm::dvec3(point) - plane.middle);
-    return rounding * (1 + (plane.width > 0 ? reach / plane.width : 0));
-}
-
-/// Which faces belong together, as numbers of regions: those next to each other all of whose corners lie on one plane, that of the
-/// greatest of them.
-std::vector<uint32_t> regionsOf(const ConvexBody& body, const std::vector<Plane>& planes, double rounding)
+std::vector<std::vector<uint32_t>> neighboursOf(const ConvexBody& body)
 {
     std::vector<std::vector<uint32_t>> neighbours(body.faces.size());
     for (const ConvexBody::Edge& edge : body.edges) {
         neighbours[edge.left].push_back(edge.right);
         neighbours[edge.right].push_back(edge.left);
     }
+    return neighbours;
+}
+
+/// Which faces belong together, as numbers of regions. From the greatest face on, a region takes in the faces next to it whose
+/// corners lie on its plane, which is that of all faces it has so far.
+std::vector<uint32_t> regionsOf(const ConvexBody& body, double rounding)
+{
+    const std::vector<Plane> planes = planesOf(body);
+    const std::vector<std::vector<uint32_t>> neighbours = neighboursOf(body);
     std::vector<uint32_t> greatestFirst(body.faces.size());
     std::iota(greatestFirst.begin(), greatestFirst.end(), 0u);
-    std::ranges::stable_sort(greatestFirst, [&](uint32_t a, uint32_t b) { return planes[a].area > planes[b].area; });
+    std::ranges::stable_sort(greatestFirst, [&](uint32_t a, uint32_t b) { return planes[a].area() > planes[b].area(); });
 
     std::vector<uint32_t> regions(body.faces.size(), kNoRegion);
     for (const uint32_t seed : greatestFirst) {
-        if (regions[seed] != kNoRegion)
+        if (regions[seed] != kNoRegion || planes[seed].area() == 0)
             continue;
-        const auto isOnPlane = [&](uint32_t corner) {
-            const vec3 vertex = body.vertices[corner];
-            return std::abs(height(planes[seed], vertex)) <= slack(planes[seed], vertex, rounding);
-        };
+        Plane plane = planes[seed];
+        const auto isOnPlane = [&](uint32_t corner) { return std::abs(plane.height(body.vertices[corner])) <= kSameFace * rounding; };
         regions[seed] = seed;
-        for (std::vector<uint32_t> front{seed}; !front.empty();) {
-            const uint32_t face = front.back();
-            front.pop_back();
-            for (const uint32_t next : neighbours[face])
+        std::deque<uint32_t> front{seed};
+        for (; !front.empty(); front.pop_front())
+            for (const uint32_t next : neighbours[front.front()])
                 if (regions[next] == kNoRegion && std::ranges::all_of(body.loop(next), isOnPlane)) {
                     regions[next] = seed;
+                    plane.add(body.loop(next), body.vertices);
                     front.push_back(next);
                 }
-        }
     }
     return regions;
 }
@@ -158,15 +164,36 @@ std::vector<vec3> takeUsed(std::span<const vec3> vertices, std::vector<Loop>& lo
     return used;
 }
 
-/// In one piece without holes (Euler), and every vertex behind every face.
-bool isConvex(const ConvexBody& body, double rounding)
+/// In one piece without holes (Euler), and every point behind every face.
+bool isConvex(const ConvexBody& body, std::span<const vec3> points, Corners corners)
 {
-    if (body.vertices.size() + body.faces.size() != body.edges.size() + 2)
+    if (!isClosed(body) || body.vertices.size() + body.faces.size() != body.edges.size() + 2)
         return false;
-    const std::vector<Plane> planes = planesOf(body);
-    return std::ranges::all_of(planes, [&](const Plane& plane) {
-        return std::ranges::all_of(body.vertices, [&](vec3 vertex) { return height(plane, vertex) <= slack(plane, vertex, rounding); });
+    const double rounding = roundingOf(points);
+    const double placeError = corners == Corners::Exact ? 0 : kShareOfPlace * farthestCoordinate(points);
+    return std::ranges::all_of(planesOf(body), [&](const Plane& plane) {
+        if (plane.width() <= placeError)
+            return false;
+        const double turn = placeError / plane.width();
+        return std::ranges::all_of(points, [&](vec3 point) {
+            return plane.height(point) <= kSameSurface * rounding + turn * glm::length(plane.fromMiddle(point));
+        });
     });
+}
+
+std::optional<ConvexBody> withMergedFaces(const ConvexBody& split)
+{
+    const std::vector<uint32_t> regions = regionsOf(split, roundingOf(split.vertices));
+    if (std::ranges::find(regions, kNoRegion) != regions.end())
+        return std::nullopt;
+    const std::optional<Borders> borders = bordersOf(split, regions);
+    if (!borders)
+        return std::nullopt;
+    std::optional<std::vector<Loop>> loops = loopsOf(*borders, split.vertices.size());
+    if (!loops)
+        return std::nullopt;
+    std::vector<vec3> vertices = takeUsed(split.vertices, *loops);
+    return linkedBody(std::move(vertices), *loops);
 }
 
 } // namespace
@@ -174,34 +201,27 @@ bool isConvex(const ConvexBody& body, double rounding)
 double roundingOf(std::span<const vec3> points)
 {
     Aabb box;
-    float farthest = 0;
-    for (const vec3& point : points) {
+    for (const vec3& point : points)
         box.add(point);
-        farthest = std::max({farthest, std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-    }
     if (points.empty())
         return 0;
     const glm::dvec3 extent = glm::dvec3(box.highest) - glm::dvec3(box.lowest);
-    return std::max(kShareOfExtent * std::max({extent.x, extent.y, extent.z}), kShareOfPlace * farthest);
+    return std::max(kShareOfExtent * std::max({extent.x, extent.y, extent.z}), kShareOfPlace * farthestCoordinate(points));
 }
 
-std::optional<ConvexBody> mergedBody(std::span<const vec3> vertices, std::span<const Loop> loops, double rounding)
+std::optional<ConvexBody> mergedBody(std::span<const vec3> vertices, std::span<const Loop> loops, Corners corners)
 {
-    const std::optional<ConvexBody> split = linkedBody({vertices.begin(), vertices.end()}, loops);
+    std::vector<Loop> renumbered(loops.begin(), loops.end());
+    std::vector<vec3> used = takeUsed(vertices, renumbered);
+    std::optional<ConvexBody> split = linkedBody(std::move(used), renumbered);
     if (!split || !isClosed(*split))
         return std::nullopt;
-    const std::vector<uint32_t> regions = regionsOf(*split, planesOf(*split), rounding);
-    const std::optional<Borders> borders = bordersOf(*split, regions);
-    if (!borders)
-        return std::nullopt;
-    std::optional<std::vector<Loop>> merged = loopsOf(*borders, vertices.size());
-    if (!merged)
-        return std::nullopt;
-    std::vector<vec3> used = takeUsed(vertices, *merged);
-    std::optional<ConvexBody> body = linkedBody(std::move(used), *merged);
-    if (!body || !isClosed(*body) || !isConvex(*body, rounding))
-        return std::nullopt;
-    return body;
+    std::optional<ConvexBody> merged = withMergedFaces(*split);
+    if (merged && isConvex(*merged, split->vertices, corners))
+        return merged;
+    if (isConvex(*split, split->vertices, corners))
+        return split;
+    return std::nullopt;
 }
 
 } // namespace antumbra::scene

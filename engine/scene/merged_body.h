@@ -5,13 +5,16 @@
 
 namespace antumbra::scene {
 
-/// How far, in metres, places of these points may be off by having been computed and stored in float: 1e-6 of the greatest extent,
-/// more where they lie far from the origin.
+/// Exact: no vertex lies in front of a face, as in a hull. Rounded: they would not, had they not been computed and stored in float.
+enum class Corners { Exact, Rounded };
+
+/// In metres, what counts as no distance between these points: 1e-6 of their extent, more where they lie far from the origin.
 double roundingOf(std::span<const vec3> points);
 
-/// Faces of one plane become one, and vertices on no true edge are left out. Nothing where the loops, counter-clockwise seen from
-/// outside, do not close, or where a vertex lies in front of a face by more than `rounding` (more for small faces, whose planes are
-/// less certain: as much as turning them by rounding / width moves the plane at that vertex).
-std::optional<ConvexBody> mergedBody(std::span<const vec3> vertices, std::span<const Loop> loops, double rounding);
+/// Faces of one plane become one, and vertices on no true edge are left out: neither moves the surface by more than eight times
+/// roundingOf(). Where it would, faces stay as they are. Vertices that no loop uses are left out.
+/// Nothing where the loops, counter-clockwise seen from outside, do not close, or where a vertex lies in front of a face by more
+/// than that (Rounded: or more than rounding may have turned the face).
+std::optional<ConvexBody> mergedBody(std::span<const vec3> vertices, std::span<const Loop> loops, Corners corners);
 
 } // namespace antumbra::scene

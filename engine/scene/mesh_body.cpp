@@ -74,7 +74,7 @@ std::optional<ConvexBody> meshBody(const Mesh& mesh)
         if (loop[0] != loop[1] && loop[1] != loop[2] && loop[2] != loop[0])
             loops.push_back(loop);
     }
-    return mergedBody(welded.points, loops, rounding);
+    return mergedBody(welded.points, loops, Corners::Rounded);
 }
 
 std::vector<ConvexBody> triangleBodies(const Mesh& mesh)
