@@ -69,7 +69,7 @@ inline constexpr const char* kLtcAmplitudeFile = "ltc_amplitude.exr";
 /// size than the other, fewer than 2 or more than 1024 texels a side, values that are not finite or that no reflection has.
 LtcTables loadLtcTables(const Path& folder);
 LtcTables loadLtcTables(const Path& matrix, const Path& amplitude);
-/// Each file is replaced at once or not at all; equal tables give equal files. Throws Error where they cannot be written.
+/// Each file is replaced at once or not at all. Throws Error where they cannot be written.
 void saveLtcTables(const Path& folder, const LtcTables& tables);
 
 /// What a node stands for; `column` and `row` 0..size - 1.

@@ -220,6 +220,21 @@ TEST(ShippedLtcTables, AreNoWorseThanThePublishedOnes)
     EXPECT_LT(theirs.all.mean.l1, 0.2) << "read in another order than they were written in";
 }
 
+TEST(ShippedLtcTables, HoldWhatIsReflectedAtAnySpecularColour)
+{
+    for (const double f0 : {0.0, 0.04, 1.0})
+        for (const double cosView : {0.25, 0.7}) {
+            const dvec3 view = directionOf(cosView, 0);
+            const double reflected = integralOverSphere([&](const dvec3& light) {
+                const double cosHalf = glm::dot(view, glm::normalize(view + light));
+                const double fresnel = f0 + (1 - f0) * std::pow(1 - cosHalf, 5);
+                return fresnel * ggxReflection(view, light, 0.36) * std::max(light.z, 0.0);
+            });
+            const dvec4 amplitude = lookUp(shipped(), 0.6, cosView).amplitude;
+            EXPECT_NEAR(f0 * amplitude.x + (1 - f0) * amplitude.y, reflected, 5e-3 * reflected) << f0 << ' ' << cosView;
+        }
+}
+
 TEST(ShippedLtcTables, ChangeAsTheReflectionDoes)
 {
     const LtcTables& tables = shipped();
