@@ -63,6 +63,7 @@ struct Received
     vec3 specular; // W/(m^2 sr) towards the eye
 };
 
+const uint kMostMattering = 24u; // occluders of a pixel and light whose spheres meet the light's cone
 uint pieceCount = 0u;
 bool isFallback = false;
 
@@ -146,12 +147,20 @@ void addOccluders(AreaBlock area, uint index, BodyBlock body, Surface s, ivec2 p
     uint count = Tiles(pc.tiles).block[at].count;
     bool isListed = count <= kAreaTileOccluders;
     count = isListed ? count : area.occluderCount;
+    // First whose spheres may matter, then those themselves: the pixels of a group look at as many as one of them must.
+    uint matters[kMostMattering];
+    uint mattering = 0u;
     for (uint i = 0u; i < count; ++i) {
         uint occluder = isListed ? Tiles(pc.tiles).block[at].occluders[i] : area.firstOccluder + i;
         bool isOwn = !isListed && Owners(area.owners).light[i] == Lights(area.lights).block[index].light;
-        if (!isOwn)
-            addOccluder(area.arrays, body, Bodies(area.arrays.bodies).body[occluder], s.position);
+        BodyBlock blocker = Bodies(area.arrays.bodies).body[occluder];
+        bool may = !isOwn && dot(s.normal, blocker.centre - s.position) > -blocker.radius && mayHide(blocker, s.position);
+        matters[min(mattering, kMostMattering - 1u)] = occluder;
+        mattering += may ? 1u : 0u;
     }
+    isOccluderLost = mattering > kMostMattering;
+    for (uint i = 0u; i < min(mattering, kMostMattering) && !isAllHidden; ++i)
+        addOccluder(area.arrays, body, Bodies(area.arrays.bodies).body[matters[i]], s.position);
 }
 
 Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, ivec2 pixel)

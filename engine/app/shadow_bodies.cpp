@@ -7,8 +7,12 @@
 #include "scene/animation.h"
 #include "scene/components.h"
 #include "scene/light_body.h"
+#include "scene/triangle_joints.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
 
 namespace antumbra::app {
 
@@ -90,6 +94,32 @@ void makeLights(ecs::World& world, Assets& assets, const std::string& subject)
         world.add(entity, bodies);
 }
 
+/// How far outside the body the farthest of the points lies, metres.
+float marginOf(const ConvexBody& body, const scene::Mesh& mesh, std::span<const uint32_t> vertices)
+{
+    const std::vector<glm::dvec3> normals = faceNormals(body);
+    double margin = 0;
+    for (const uint32_t vertex : vertices) {
+        double height = -1e30;
+        for (uint32_t face = 0; face < body.faces.size(); ++face)
+            height = std::max(height, glm::dot(normals[face], glm::dvec3(mesh.positions[vertex] - body.vertices[body.loop(face)[0]])));
+        margin = std::max(margin, height);
+    }
+    return static_cast<float>(margin);
+}
+
+/// A hull a joint, in bind space.
+std::vector<BodyPart> hullParts(const scene::Model& model, uint32_t greatestVertices)
+{
+    const std::map<uint32_t, std::vector<uint32_t>> vertices = scene::verticesByJoint(model.mesh);
+    std::vector<BodyPart> parts;
+    for (bake::Hull& hull : bake::hullsOfModel(model, greatestVertices)) {
+        const float margin = marginOf(hull.body, model.mesh, vertices.at(hull.joint));
+        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = true, .margin = margin});
+    }
+    return parts;
+}
+
 std::vector<mat4> restJoints(const scene::Model& model)
 {
     scene::LocalPose pose;
@@ -113,8 +143,11 @@ std::vector<BodyPart> partsAtRest(const scene::Model& model, const scene::Occlud
         return parts;
     }
     const std::vector<mat4> joints = restJoints(model);
-    for (bake::Hull& hull : bake::hullsOfModel(model, occluder.greatestVertices))
-        parts.push_back({.body = transformed(hull.body, joints[hull.joint]), .isHollow = true});
+    for (BodyPart& part : hullParts(model, occluder.greatestVertices)) {
+        part.body = transformed(part.body, joints[part.joint]);
+        part.joint = scene::kNoIndex;
+        parts.push_back(std::move(part));
+    }
     return parts;
 }
 
@@ -124,10 +157,7 @@ std::vector<BodyPart> partsOf(const scene::Model& model, const scene::Occluder& 
         return partsAtRest(model, occluder);
     if (occluder.shape == scene::OccluderShape::Triangles)
         logWarning("{}: an Occluder that moves blocks by a hull a bone, not by its triangles", subject);
-    std::vector<BodyPart> parts;
-    for (bake::Hull& hull : bake::hullsOfModel(model, occluder.greatestVertices))
-        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = true});
-    return parts;
+    return hullParts(model, occluder.greatestVertices);
 }
 
 void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject)

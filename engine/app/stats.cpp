@@ -49,8 +49,8 @@ Json countersOf(const shader::CounterBlock& counters)
     return {{"rays_considered", counters.raysConsidered},
             {"rays_traced", counters.raysTraced},
             {"cones", counters.cones},
-            {"pieces", 0},          // no analytic shadow is drawn yet
-            {"sdf_evaluations", 0}, // nor an SDF
+            {"pieces", counters.pieces},
+            {"sdf_evaluations", 0}, // no SDF is drawn yet
             {"fallback_pixels", counters.fallbackPixels},
             {"clamped_pixels", counters.clampedPixels},
             {"nan_pixels", counters.nanPixels},

@@ -32,17 +32,19 @@ shader::EdgeBlock packed(const scene::ConvexBody::Edge& edge, bool isMirrored)
 
 } // namespace
 
-uint32_t BodyBlocks::add(const scene::ConvexBody& body, const mat4& toWorld, uint32_t flags)
+uint32_t BodyBlocks::add(const scene::ConvexBody& body, const mat4& toWorld, uint32_t flags, float margin)
 {
     check(body.vertices.size() < shader::kNoFace && body.faces.size() < shader::kNoFace, "a body whose indices fit 16 bits");
-    const bool isMirrored = glm::determinant(glm::mat3(toWorld)) < 0;
+    const float volumeScale = glm::determinant(mat3(toWorld));
+    const bool isMirrored = volumeScale < 0;
     shader::BodyBlock block{.firstVertex = static_cast<uint32_t>(vertices.size()),
                             .vertexCount = static_cast<uint32_t>(body.vertices.size()),
                             .firstFace = static_cast<uint32_t>(faces.size()),
                             .faceCount = static_cast<uint32_t>(body.faces.size()),
                             .firstEdge = static_cast<uint32_t>(edges.size()),
                             .edgeCount = static_cast<uint32_t>(body.edges.size()),
-                            .flags = flags | (body.isPlanar ? shader::kBodyPlanar : 0u)};
+                            .flags = flags | (body.isPlanar ? shader::kBodyPlanar : 0u),
+                            .margin = margin * std::cbrt(std::abs(volumeScale))};
     for (const vec3& vertex : body.vertices)
         vertices.emplace_back(toWorld * vec4(vertex, 1));
     const auto moved = std::span(vertices).subspan(block.firstVertex);

@@ -18,7 +18,7 @@ struct BodyBlocks
 
     /// The index of the body, moved by `toWorld`. `flags` are shader::kBody..., but for kBodyPlanar, which the body tells. The body has
     /// less than 65535 vertices and faces.
-    uint32_t add(const scene::ConvexBody& body, const mat4& toWorld = mat4{1}, uint32_t flags = 0);
+    uint32_t add(const scene::ConvexBody& body, const mat4& toWorld = mat4{1}, uint32_t flags = 0, float margin = 0);
     void clear();
 };
 

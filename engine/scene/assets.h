@@ -15,7 +15,8 @@ struct BodyPart
     ConvexBody body;
     uint32_t joint = kNoIndex;
     bool isFrontOnly = false; // a triangle of a closed mesh: blocks on the side that is seen
-    bool isHollow = false;    // stands for a surface that may lie inside it: does not hide everything from there
+    bool isHollow = false;    // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
+    float margin = 0;         // metres, in the space of the body
 };
 
 struct Assets

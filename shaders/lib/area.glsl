@@ -18,8 +18,9 @@ struct AreaShare
     uint fallbacks; // of them, what was left to samples
 };
 
-// The light's outline, counter-clockwise, relative to the point.
+// The light's outline, counter-clockwise, relative to the point, and the planes through its edges: unit, the light in front.
 vec3 outline[OUTLINE_CORNERS];
+vec3 outlinePlanes[OUTLINE_CORNERS];
 int outlineCount = 0;
 bool isLightFlipped; // planar, and seen from behind
 
@@ -98,14 +99,44 @@ bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
         findPlanarOutline(arrays, light, point);
     else
         findSolidOutline(arrays, light, point);
+    for (int i = 0; i < outlineCount; ++i)
+        outlinePlanes[i] = planeThrough(outline[i], outline[i + 1 < outlineCount ? i + 1 : 0] - outline[i]);
     return outlineCount >= 3;
 }
 
-bool planeMissesOutline(vec3 plane)
+// Whether the body's sphere meets the cone of the light, as far as its planes tell. After beginLight.
+bool mayHide(BodyBlock body, vec3 point)
 {
-    bool misses = true;
+    vec3 to = body.centre - point;
+    float least = -1.0001 * body.radius - 1.0e-6 * length(to); // past every rounding
+    bool may = true;
     for (int i = 0; i < outlineCount; ++i)
-        misses = misses && dot(plane, outline[i]) <= kOnPlane * length(outline[i]);
+        may = may && dot(outlinePlanes[i], to) >= least;
+    return may;
+}
+
+// Which sides of the plane the outline's corners are on: as sidesOf.
+uint sidesOfOutline(vec3 plane)
+{
+    uint sides = 0u;
+    for (int i = 0; i < outlineCount; ++i) {
+        float side = dot(plane, outline[i]), onPlane = kOnPlane * length(outline[i]);
+        sides |= side > onPlane ? 1u : side < -onPlane ? 2u : 0u;
+    }
+    return sides;
+}
+
+// Whether the silhouette that was gathered last lies behind one of the outline's planes: two convex cones that do not meet are parted by a
+// plane of one of them.
+bool outlineMissesSilhouette()
+{
+    bool misses = false;
+    for (int i = 0; i < outlineCount && !misses; ++i) {
+        bool isBehind = dot(outlinePlanes[i], outlinePlanes[i]) > 0.0; // repeated corners have no plane between them
+        for (int k = 0; k < endCount && isBehind; ++k)
+            isBehind = dot(outlinePlanes[i], edgeEnds[k]) <= kOnPlane;
+        misses = isBehind;
+    }
     return misses;
 }
 
@@ -114,9 +145,14 @@ void addOccluderPart(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, 
 {
     int first = edgeCount;
     isAllHidden = !addSilhouette(arrays, body, point, isCut, plane) || isAllHidden;
-    bool misses = edgeCount == first;
-    for (int i = first; i < edgeCount && !misses; ++i)
-        misses = planeMissesOutline(edgePlanes[i].xyz);
+    bool misses = edgeCount == first, covers = edgeCount > first;
+    for (int i = first; i < edgeCount && !misses; ++i) {
+        uint sides = sidesOfOutline(edgePlanes[i].xyz);
+        misses = (sides & 1u) == 0u;
+        covers = covers && (sides & 2u) == 0u;
+    }
+    isAllHidden = isAllHidden || (covers && !misses);
+    misses = misses || outlineMissesSilhouette();
     bool fits = occluderCount < AREA_OCCLUDERS && edgeCount < SILHOUETTE_EDGES && edgeCount - first < SILHOUETTE_BODY_EDGES;
     isOccluderLost = isOccluderLost || (!misses && !fits);
     if (misses || !fits) {
@@ -200,11 +236,11 @@ void placeLight(mat3 lobe, vec3 horizon)
         addCorner(kUncut, unitOrZero(corner), planeThrough(corner, next - corner).z);
     }
     sidesOf(kUncut, vec3(0.0, 0.0, 1.0));
-    cut(kUncut, vec3(0.0, 0.0, 1.0), kCutOnce, kUncut, false);
+    cut(kUncut, vec3(0.0, 0.0, 1.0), kCutOnce, kUncut, false, true);
     for (int i = 0; i < cornerCounts[kCutOnce]; ++i)
         polygonCorners[kCutOnce * POLYGON_CORNERS + i].z = max(polygonCorners[kCutOnce * POLYGON_CORNERS + i].z, 0.0);
     sidesOf(kCutOnce, horizon);
-    cut(kCutOnce, horizon, 0, kUncut, false);
+    cut(kCutOnce, horizon, 0, kUncut, false, true);
 }
 
 // The search: polygons of light, each with the occluders that are still to be taken from it.
@@ -218,25 +254,22 @@ int scratchA, scratchB;
 bool findHidden(int place, int occluder)
 {
     int from = place;
-    bool isCovered = true;
-    for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder]; ++edge) {
+    bool isHit = true;
+    for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder] && isHit; ++edge) {
         uint sides = sidesOf(from, lobePlanes[edge]);
-        if ((sides & 1u) == 0u)
-            return false;
-        if ((sides & 2u) == 0u)
-            continue;
-        isCovered = false;
-        cut(from, lobePlanes[edge], scratchB, scratchA, false);
-        int made = scratchB;
-        scratchB = scratchA;
-        scratchA = made;
-        from = scratchA;
-        if (cornerCounts[scratchA] == 0)
-            return false;
+        bool isCrossed = sides == 3u;
+        cut(from, lobePlanes[edge], scratchB, scratchA, false, isCrossed);
+        if (isCrossed) {
+            int made = scratchB;
+            scratchB = scratchA;
+            scratchA = made;
+            from = scratchA;
+        }
+        isHit = (sides & 1u) != 0u && cornerCounts[from] > 0;
     }
-    if (isCovered)
-        cornerCounts[scratchA] = 0;
-    return true;
+    if (from == place)
+        cornerCounts[scratchA] = 0; // all of it is hidden
+    return isHit;
 }
 
 bool isInsideOccluder(vec3 direction, int occluder)
@@ -288,7 +321,7 @@ int splitFurther(int top)
         return top;
     }
     int outside = framePlace[top + 1];
-    cut(place, plane, scratchA, outside, true);
+    cut(place, plane, scratchA, outside, true, true);
     framePlace[top] = scratchA;
     scratchA = place;
     frameSign[top + 1] = frameSign[top];
@@ -300,7 +333,8 @@ int splitFurther(int top)
 // The form factor of what the occluders leave of the polygon at place 0. `mostPieces`: the rest is left to samples.
 AreaShare visibleShare(uint mostPieces)
 {
-    AreaShare found = AreaShare(formFactor(0), 0.0, 1u, 0u);
+    AreaShare found = AreaShare(formFactor(0, true), 0.0, 1u, 0u);
+    bool isSplit = false; // the light itself
     for (int i = 0; i < kFrames; ++i)
         framePlace[i] = i;
     scratchA = kFrames;
@@ -314,6 +348,7 @@ AreaShare visibleShare(uint mostPieces)
         bool isFull = top + 1 >= kFrames || !hasRoomForCut(place) || found.pieces >= mostPieces;
         if (frameEdge[top] >= 0 && !isFull) {
             top = splitFurther(top);
+            isSplit = true;
             continue;
         }
         int occluder = frameOccluder[top];
@@ -343,7 +378,9 @@ AreaShare visibleShare(uint mostPieces)
                 continue;
             }
             float share = isFull ? sampledShare(place, frameOccluder[top]) : 1.0;
-            found.visible += frameSign[top] * share * (formFactor(place) - (isHit ? formFactor(scratchA) : 0.0));
+            bool isKnown = top == 0 && !isSplit;
+            float whole = isKnown ? found.unoccluded : formFactor(place, !isKnown);
+            found.visible += frameSign[top] * share * (whole - formFactor(scratchA, isHit));
             found.fallbacks += isFull ? 1u : 0u;
             found.pieces += isHit ? 2u : 1u;
             --top;
@@ -360,7 +397,7 @@ AreaShare areaShare(mat3 lobe, vec3 normal, uint mostPieces)
     for (int i = 0; i < edgeCount; ++i)
         lobePlanes[i] = lobePlane(i, lobe, lobeOfPlanes);
     placeLight(lobe, unitOrZero(lobeOfPlanes * normal));
-    return isAllHidden ? AreaShare(formFactor(0), 0.0, 1u, 0u) : visibleShare(mostPieces);
+    return isAllHidden ? AreaShare(formFactor(0, true), 0.0, 1u, 0u) : visibleShare(mostPieces);
 }
 
 #endif

@@ -66,13 +66,15 @@ vec3 crossing(vec3 front, float frontSide, vec3 behind, float behindSide)
 }
 
 // The part of `from` in front of the plane goes to `front`, and where `wantsBehind` the rest to `behind`, else that is left alone: three
-// different places. After sidesOf(from, plane).
-void cut(int from, vec3 plane, int front, int behind, bool wantsBehind)
+// different places. After sidesOf(from, plane). Unless `isCrossed` nothing happens: loops that do not go round are what spares CPU devices
+// the work.
+void cut(int from, vec3 plane, int front, int behind, bool wantsBehind, bool isCrossed)
 {
-    int count = cornerCounts[from];
+    int count = isCrossed ? cornerCounts[from] : 0;
     dropFalseCrossings(count);
-    beginPolygon(front);
-    if (wantsBehind)
+    if (isCrossed)
+        beginPolygon(front);
+    if (isCrossed && wantsBehind)
         beginPolygon(behind);
     for (int i = 0; i < count; ++i) {
         int next = i + 1 < count ? i + 1 : 0;
@@ -90,8 +92,9 @@ void cut(int from, vec3 plane, int front, int behind, bool wantsBehind)
                 addCorner(behind, at, a > 0.0 ? corner.w : -plane.z);
         }
     }
-    cornerCounts[front] = cornerCounts[front] < 3 ? 0 : cornerCounts[front];
-    if (wantsBehind)
+    if (isCrossed)
+        cornerCounts[front] = cornerCounts[front] < 3 ? 0 : cornerCounts[front];
+    if (isCrossed && wantsBehind)
         cornerCounts[behind] = cornerCounts[behind] < 3 ? 0 : cornerCounts[behind];
 }
 
@@ -108,11 +111,11 @@ float curvatureOfShortArc(float chord2)
 
 // Share of the hemisphere's cosine-weighted solid angle that the polygon fills, 0..1, where all of it has z >= 0. By the sum over its edges
 // about its first corner, which keeps the digits of a small one, plus what their curvature adds; no acos, which loses half of them.
-float formFactor(int place)
+// Not `isWanted`: 0.
+float formFactor(int place, bool isWanted)
 {
-    int count = cornerCounts[place], base = place * POLYGON_CORNERS;
-    if (count < 3)
-        return 0.0;
+    int base = place * POLYGON_CORNERS;
+    int count = isWanted && cornerCounts[place] >= 3 ? cornerCounts[place] : 0;
     vec2 centre = polygonCorners[base].xy;
     float flat_ = 0.0, curved = 0.0;
     vec4 a = polygonCorners[base];

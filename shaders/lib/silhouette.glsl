@@ -24,9 +24,12 @@ vec3 edgeSpans[SILHOUETTE_EDGES];
 vec4 edgePlanes[SILHOUETTE_EDGES]; // unit, what the body hides in front. w: 1 where it is a face's plane, not that of the edge
 vec3 edgeEnds[2 * SILHOUETTE_BODY_EDGES]; // unit, of the body that was gathered last: what of the edge is in front of the cut
 int edgeCount = 0;
+int endCount = 0; // of edgeEnds
 
 uint frontFaces[FACE_WORDS]; // of the body that was looked at last; those in whose plane the point lies count as front
 uint levelFaces[FACE_WORDS]; // the point lies in their plane
+
+float greatestHeight; // of the point over the planes of their faces, metres
 
 bool isFront(uint face) { return (frontFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
 bool isLevel(uint face) { return (levelFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
@@ -43,15 +46,17 @@ float heightOver(BodyArrays arrays, BodyBlock body, FaceBlock face, vec3 point)
     return dot(face.normal, point - bodyVertex(arrays, body, faceCorner(arrays, face, 0u)));
 }
 
-// Finds frontFaces and levelFaces; whether there is any front one. `tolerance` in metres: so near its plane a point is level with a face.
+// Finds frontFaces, levelFaces and greatestHeight; whether there is any front one. `tolerance` in metres: so near its plane a point is level with a face.
 bool findFronts(BodyArrays arrays, BodyBlock body, vec3 point, float tolerance)
 {
     bool hasFront = false;
+    greatestHeight = -1.0e30;
     for (uint word = 0u; 32u * word < body.faceCount; ++word) {
         uint fronts = 0u, levels = 0u;
         uint count = min(body.faceCount - 32u * word, 32u);
         for (uint bit = 0u; bit < count; ++bit) {
             float height = heightOver(arrays, body, bodyFace(arrays, body, 32u * word + bit), point);
+            greatestHeight = max(greatestHeight, height);
             fronts |= height >= -tolerance ? 1u << bit : 0u;
             levels |= abs(height) <= tolerance ? 1u << bit : 0u;
         }
@@ -73,8 +78,8 @@ void addEdge(int first, vec3 start, vec3 span, vec4 plane, vec3 startSeen, vec3 
     edgeStarts[edgeCount] = start;
     edgeSpans[edgeCount] = span;
     edgePlanes[edgeCount] = plane;
-    edgeEnds[2 * (edgeCount - first)] = startSeen * inversesqrt(max(dot(startSeen, startSeen), 1.0e-30));
-    edgeEnds[2 * (edgeCount - first) + 1] = endSeen * inversesqrt(max(dot(endSeen, endSeen), 1.0e-30));
+    edgeEnds[endCount++] = startSeen * inversesqrt(max(dot(startSeen, startSeen), 1.0e-30));
+    edgeEnds[endCount++] = endSeen * inversesqrt(max(dot(endSeen, endSeen), 1.0e-30));
     ++edgeCount;
 }
 
@@ -143,11 +148,10 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
 void dropFalsePlanes(int first)
 {
     int kept = first;
-    int ends = 2 * (edgeCount - first);
     for (int i = first; i < edgeCount; ++i) {
         vec3 chord = edgeEnds[2 * (i - first)] - edgeEnds[2 * (i - first) + 1];
         float chord2 = dot(chord, chord), lowest = 0.0;
-        int count = chord2 < 4.0e-4 ? ends : 0;
+        int count = chord2 < 4.0e-4 ? endCount : 0;
         for (int k = 0; k < count; ++k)
             lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
         if (lowest < -1.0e-6 && lowest * lowest > 0.25 * chord2)
@@ -167,9 +171,12 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
     bool hasFront = findFronts(arrays, body, point, 5.0e-7 * reachOf(body, point));
     if (isPlanar && (isLevel(0u) || (!hasFront && (body.flags & kBodyFrontOnly) != 0u)))
         return true; // edge-on, or a side that does not block
+    if ((body.flags & kBodyHollow) != 0u && greatestHeight <= body.margin)
+        return true; // what it stands for may be here
     if (!isPlanar && !hasFront)
-        return (body.flags & kBodyHollow) != 0u;
+        return false;
     int first = edgeCount;
+    endCount = 0;
     for (uint i = 0u; i < body.edgeCount; ++i)
         addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);
     if (isCut)

@@ -7,7 +7,7 @@ const uint kNoFace = 0xffffu;
 const uint kBodyPlanar = 1u; // one polygon, no inside
 const uint kBodyTwoSided = 2u; // a planar light shines to both sides; what blocks does so from both
 const uint kBodyFrontOnly = 4u; // a triangle of a closed mesh: the side that is seen blocks
-const uint kBodyHollow = 8u; // what it stands for may lie inside it: hides nothing from there
+const uint kBodyHollow = 8u; // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
 
 // A convex polyhedron or polygon. What is counted from its first is indexed relative to it.
 struct BodyBlock
@@ -21,6 +21,7 @@ struct BodyBlock
     uint firstEdge;
     uint edgeCount;
     uint flags;
+    float margin; // metres
 };
 
 struct FaceBlock

@@ -44,7 +44,7 @@ void AreaBodies::addOccluders(const FrameView& view)
 {
     for (const OccluderDraw& occluder : view.occluders) {
         const scene::BodyPart& part = assets_->bodyParts[occluder.part];
-        bodies_.add(part.body, occluder.world, flagsOf(part));
+        bodies_.add(part.body, occluder.world, flagsOf(part), part.margin);
         owners_.push_back(occluder.light);
         // No vertex is twice on a silhouette; a plane that cuts the body adds an edge.
         grow(sizes_.silhouetteEdges, part.body.vertices.size() + 1);
