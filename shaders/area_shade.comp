@@ -20,6 +20,7 @@
 #define OUTLINE_CORNERS 30
 #define LIGHT_VERTICES 64
 #define AREA_OCCLUDERS 8
+#define AREA_SIGNED 8
 #endif
 #include "lib/area.glsl"
 #include "lib/surface.glsl"
@@ -44,7 +45,7 @@ layout(buffer_reference, scalar) readonly buffer Owners { uint light[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { AreaShade pc; };
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kAreaGroupWidth, local_size_y = kAreaGroupHeight) in;
 
 struct Surface
 {
@@ -214,8 +215,9 @@ vec3 addedUp(uint before, ivec2 pixel, vec3 value)
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    bool isInside = all(lessThan(pixel, textureSize(sampledImages[pc.depth], 0)));
+    ivec2 litPixel = ivec2(gl_GlobalInvocationID.xy), extent = textureSize(sampledImages[pc.depth], 0);
+    ivec2 pixel = min(litPixel * pc.pixelScale + pc.pixelScale / 2, extent - 1);
+    bool isInside = all(lessThan(litPixel * pc.pixelScale, extent));
     float depth = isInside ? texelFetch(sampledImages[pc.depth], pixel, 0).x : 0.0;
     Received sum = Received(vec3(0.0), vec3(0.0));
     if (depth > 0.0) {
@@ -235,8 +237,8 @@ void main()
     count(sum);
     if (!isInside)
         return;
-    imageStore(storageImages[pc.diffuse], pixel, vec4(addedUp(pc.diffuseBefore, pixel, sum.diffuse), 0.0));
+    imageStore(storageImages[pc.diffuse], litPixel, vec4(addedUp(pc.diffuseBefore, litPixel, sum.diffuse), 0.0));
 #ifdef GLOSSY
-    imageStore(storageImages[pc.specular], pixel, vec4(addedUp(pc.specularBefore, pixel, sum.specular), 0.0));
+    imageStore(storageImages[pc.specular], litPixel, vec4(addedUp(pc.specularBefore, litPixel, sum.specular), 0.0));
 #endif
 }

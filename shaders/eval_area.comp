@@ -10,6 +10,7 @@
 #define OUTLINE_CORNERS 62
 #define LIGHT_VERTICES 64
 #define AREA_OCCLUDERS 400
+#define AREA_SIGNED 2
 #include "lib/area.glsl"
 #include "shared/eval.h"
 

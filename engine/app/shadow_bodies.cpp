@@ -117,6 +117,8 @@ std::vector<BodyPart> hullParts(const scene::Model& model, uint32_t greatestVert
         const float margin = marginOf(hull.body, model.mesh, vertices.at(hull.joint));
         parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = true, .margin = margin});
     }
+    // The largest first: what it hides of a light need not be asked about the others.
+    std::ranges::sort(parts, std::greater{}, [](const BodyPart& part) { return surfaceArea(part.body); });
     return parts;
 }
 

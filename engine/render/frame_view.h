@@ -95,6 +95,12 @@ struct FrameView
             return shadowOf(light) == scene::LightShadow::Traced || shadowOf(light) == scene::LightShadow::Reference;
         });
     }
+    /// Whether a light is shadowed by what accumulates to the truth.
+    [[nodiscard]] bool hasReferenceLights() const
+    {
+        return std::ranges::any_of(
+            areaLights, [this](const AreaLightDraw& light) { return shadowOf(light) == scene::LightShadow::Reference; });
+    }
     /// Whether a pass traces rays through the scene.
     [[nodiscard]] bool tracesRays() const { return (hasEnvironment() && !characters.empty()) || tracesAreaLights(); }
     /// Keeps the memory.

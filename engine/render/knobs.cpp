@@ -128,6 +128,7 @@ constexpr KnobDescription kTable[] = {
                                    "baked light where there is some; off: the environment's, as if nothing stood there"),
     knob<kPrt, &PrtKnobs::window>("prt.window", {0, 1, 0}, "against ringing of baked light: how much higher bands are damped; 0 is off"),
     knob<kArea, &Area::shadow>("area.shadow", kLightShadows, "how area lights are shadowed, but for those that say so themselves"),
+    knob<kArea, &Area::scale>("area.scale", kScales, "resolution of area light along each axis, as a share of the frame's"),
     knob<kArea, &Area::pieces>("area.pieces", {1, 4096, 1}, "polygons of light a pixel and light; the rest of its shadow is sampled"),
     knob<kArea, &Area::rays>("area.rays", {1, 4096, 1}, "shadow rays a pixel and light, where it is traced"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
@@ -214,6 +215,7 @@ Knobs defaultKnobs(DeviceClass device)
     if (device == DeviceClass::Cpu) {
         knobs.occlusion.samples = 32;
         knobs.occlusion.scale = Scale::Quarter;
+        knobs.area.scale = Scale::Quarter;
     }
     return knobs;
 }

@@ -42,6 +42,7 @@ struct PrtKnobs
 struct AreaKnobs
 {
     scene::LightShadow shadow = scene::LightShadow::Analytic; // of lights that say nothing themselves
+    Scale scale = Scale::Full;
     uint32_t pieces = 64;
     uint32_t rays = 16;
 };

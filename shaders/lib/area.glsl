@@ -1,7 +1,7 @@
 // How much of an area light's reflection reaches a point past convex bodies, in closed form: KT, Sakurikar, Narayanan 2021 on linearly
 // transformed cosines (Heitz et al. 2016, eq. 3 to 5), with splits of convex cones in place of the paper's set difference
 // (methods/area-shadows.md). Needs what lib/cone_polygon.glsl and lib/silhouette.glsl need, OUTLINE_CORNERS of a light seen from a point,
-// LIGHT_VERTICES of a light's body, and AREA_OCCLUDERS.
+// LIGHT_VERTICES of a light's body, AREA_OCCLUDERS, and AREA_SIGNED: so few occluders are left, or fewer, where light is not split around them.
 #ifndef LIB_AREA_GLSL
 #define LIB_AREA_GLSL
 
@@ -115,7 +115,7 @@ bool mayHide(BodyBlock body, vec3 point)
     return may;
 }
 
-// Which sides of the plane the outline's corners are on: as sidesOf.
+// Which sides of the plane the outline's corners are on: bit 0: some is in front, bit 1: some is behind.
 uint sidesOfOutline(vec3 plane)
 {
     uint sides = 0u;
@@ -235,12 +235,10 @@ void placeLight(mat3 lobe, vec3 horizon)
         vec3 corner = lobe * outline[i], next = lobe * outline[i + 1 < outlineCount ? i + 1 : 0];
         addCorner(kUncut, unitOrZero(corner), planeThrough(corner, next - corner).z);
     }
-    sidesOf(kUncut, vec3(0.0, 0.0, 1.0));
-    cut(kUncut, vec3(0.0, 0.0, 1.0), kCutOnce, kUncut, false, true);
+    cut(kUncut, crossingOf(kUncut, vec3(0.0, 0.0, 1.0)), kCutOnce, kUncut, false, true);
     for (int i = 0; i < cornerCounts[kCutOnce]; ++i)
         polygonCorners[kCutOnce * POLYGON_CORNERS + i].z = max(polygonCorners[kCutOnce * POLYGON_CORNERS + i].z, 0.0);
-    sidesOf(kCutOnce, horizon);
-    cut(kCutOnce, horizon, 0, kUncut, false, true);
+    cut(kCutOnce, crossingOf(kCutOnce, horizon), 0, kUncut, false, true);
 }
 
 // The search: polygons of light, each with the occluders that are still to be taken from it.
@@ -256,16 +254,15 @@ bool findHidden(int place, int occluder)
     int from = place;
     bool isHit = true;
     for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder] && isHit; ++edge) {
-        uint sides = sidesOf(from, lobePlanes[edge]);
-        bool isCrossed = sides == 3u;
-        cut(from, lobePlanes[edge], scratchB, scratchA, false, isCrossed);
-        if (isCrossed) {
+        Crossing crossing = crossingOf(from, lobePlanes[edge]);
+        cut(from, crossing, scratchB, scratchA, false, isCut(crossing));
+        if (isCut(crossing)) {
             int made = scratchB;
             scratchB = scratchA;
             scratchA = made;
             from = scratchA;
         }
-        isHit = (sides & 1u) != 0u && cornerCounts[from] > 0;
+        isHit = crossing.hasFront && cornerCounts[from] > 0;
     }
     if (from == place)
         cornerCounts[scratchA] = 0; // all of it is hidden
@@ -310,18 +307,17 @@ int splitFurther(int top)
     int place = framePlace[top], occluder = frameOccluder[top], edge = frameEdge[top];
     if (edge == occluderEnd[occluder] || cornerCounts[place] == 0)
         return top - 1; // what is left is hidden
-    vec3 plane = lobePlanes[edge];
-    uint sides = sidesOf(place, plane);
+    Crossing crossing = crossingOf(place, lobePlanes[edge]);
     frameEdge[top] = edge + 1;
-    if ((sides & 2u) == 0u)
+    if (!crossing.hasBehind)
         return top;
-    if ((sides & 1u) == 0u) {
+    if (!crossing.hasFront) {
         frameOccluder[top] = occluder + 1; // all of it is outside
         frameEdge[top] = -1;
         return top;
     }
     int outside = framePlace[top + 1];
-    cut(place, plane, scratchA, outside, true, true);
+    cut(place, crossing, scratchA, outside, true, true);
     framePlace[top] = scratchA;
     scratchA = place;
     frameSign[top + 1] = frameSign[top];
@@ -346,11 +342,13 @@ AreaShare visibleShare(uint mostPieces)
     while (top >= 0) {
         int place = framePlace[top];
         bool isFull = top + 1 >= kFrames || !hasRoomForCut(place) || found.pieces >= mostPieces;
+#if AREA_SIGNED < AREA_OCCLUDERS
         if (frameEdge[top] >= 0 && !isFull) {
             top = splitFurther(top);
             isSplit = true;
             continue;
         }
+#endif
         int occluder = frameOccluder[top];
         bool isHit = false;
         while (occluder < occluderCount && !isHit && !isFull) {
@@ -359,12 +357,12 @@ AreaShare visibleShare(uint mostPieces)
         }
         if (isHit && cornerCounts[scratchA] == 0) {
             --top; // all of it is hidden
-        } else if (isHit && occluderCount - occluder > 2) {
+        } else if (isHit && occluderCount - occluder > AREA_SIGNED) {
             frameOccluder[top] = occluder;
             frameEdge[top] = occluderFirst[occluder];
         } else {
             // Few are left: what is hidden is taken away again, which makes fewer pieces than splitting around it.
-            bool goesOn = isHit && occluderCount - occluder == 2;
+            bool goesOn = isHit && occluderCount - occluder > 1;
             if (goesOn) {
                 int hidden = scratchA;
                 scratchA = framePlace[top + 1];

@@ -9,7 +9,6 @@
 vec4 polygonCorners[POLYGON_PLACES * POLYGON_CORNERS];
 int cornerCounts[POLYGON_PLACES];
 
-float planeSides[POLYGON_CORNERS]; // of the corners that were looked at last
 const float kOnPlane = 2.0e-7; // a corner this near a plane, of unit vectors, lies on it: rounding of four products
 
 void beginPolygon(int place) { cornerCounts[place] = 0; }
@@ -23,74 +22,77 @@ void addCorner(int place, vec3 direction, float planeZ)
 // A cut adds one corner at most.
 bool hasRoomForCut(int place) { return cornerCounts[place] < POLYGON_CORNERS; }
 
-// Finds planeSides. Bit 0: some corner is in front of the plane; bit 1: some is behind it.
-uint sidesOf(int place, vec3 plane)
+// A plane as a polygon meets it.
+struct Crossing
 {
-    uint sides = 0u;
-    int first = place * POLYGON_CORNERS;
-    for (int i = 0; i < cornerCounts[place]; ++i) {
-        float side = dot(plane, polygonCorners[first + i].xyz);
-        side = abs(side) <= kOnPlane ? 0.0 : side;
-        planeSides[i] = side;
-        sides |= side > 0.0 ? 1u : side < 0.0 ? 2u : 0u;
-    }
-    return sides;
+    vec3 plane;
+    bool hasFront; // some corner is in front of it
+    bool hasBehind;
+    float dropped; // 1: none is in front after all; -1: none is behind; 0: as they are
+};
+
+// Positive in front; 0 for what lies on the plane.
+float sideOf(vec3 plane, vec3 corner)
+{
+    float side = dot(plane, corner);
+    return abs(side) <= kOnPlane ? 0.0 : side;
 }
 
 // A convex polygon meets a plane at most twice: more changes of side come from rounding, and the weaker side is no side.
-void dropFalseCrossings(int count)
+Crossing crossingOf(int place, vec3 plane)
 {
     int changes = 0;
     float last = 0.0, first = 0.0, mostInFront = 0.0, mostBehind = 0.0;
-    for (int i = 0; i < count; ++i) {
-        float side = sign(planeSides[i]);
-        mostInFront = max(mostInFront, planeSides[i]);
-        mostBehind = max(mostBehind, -planeSides[i]);
+    for (int i = 0; i < cornerCounts[place]; ++i) {
+        float side = sideOf(plane, polygonCorners[place * POLYGON_CORNERS + i].xyz);
+        mostInFront = max(mostInFront, side);
+        mostBehind = max(mostBehind, -side);
         changes += side * last < 0.0 ? 1 : 0;
         first = first == 0.0 ? side : first;
         last = side == 0.0 ? last : side;
     }
     changes += first * last < 0.0 ? 1 : 0;
-    if (changes <= 2)
-        return;
-    float kept = mostInFront >= mostBehind ? 1.0 : -1.0;
-    for (int i = 0; i < count; ++i)
-        planeSides[i] = planeSides[i] * kept < 0.0 ? 0.0 : planeSides[i];
+    float dropped = changes <= 2 ? 0.0 : mostInFront >= mostBehind ? -1.0 : 1.0;
+    return Crossing(plane, mostInFront > 0.0, mostBehind > 0.0, dropped);
 }
 
+bool isCut(Crossing crossing) { return crossing.hasFront && crossing.hasBehind; }
+
 // Computed from the end in front, always, so that two polygons share the same corner.
-vec3 crossing(vec3 front, float frontSide, vec3 behind, float behindSide)
+vec3 cornerBetween(vec3 front, float frontSide, vec3 behind, float behindSide)
 {
     vec3 between = front * -behindSide + behind * frontSide;
     return between * inversesqrt(max(dot(between, between), 1.0e-30)); // never zero for ends that differ
 }
 
 // The part of `from` in front of the plane goes to `front`, and where `wantsBehind` the rest to `behind`, else that is left alone: three
-// different places. After sidesOf(from, plane). Unless `isCrossed` nothing happens: loops that do not go round are what spares CPU devices
-// the work.
-void cut(int from, vec3 plane, int front, int behind, bool wantsBehind, bool isCrossed)
+// different places. Unless `isCrossed` nothing happens: loops that do not go round are what spares CPU devices the work.
+void cut(int from, Crossing crossing, int front, int behind, bool wantsBehind, bool isCrossed)
 {
-    int count = isCrossed ? cornerCounts[from] : 0;
-    dropFalseCrossings(count);
+    int count = isCrossed ? cornerCounts[from] : 0, base = from * POLYGON_CORNERS;
     if (isCrossed)
         beginPolygon(front);
     if (isCrossed && wantsBehind)
         beginPolygon(behind);
+    vec4 corner = polygonCorners[base];
+    float a = sideOf(crossing.plane, corner.xyz);
+    a = a * crossing.dropped > 0.0 ? 0.0 : a;
     for (int i = 0; i < count; ++i) {
-        int next = i + 1 < count ? i + 1 : 0;
-        float a = planeSides[i], b = planeSides[next];
-        vec4 corner = polygonCorners[from * POLYGON_CORNERS + i];
+        vec4 next = polygonCorners[base + (i + 1 < count ? i + 1 : 0)];
+        float b = sideOf(crossing.plane, next.xyz);
+        b = b * crossing.dropped > 0.0 ? 0.0 : b;
         if (a >= 0.0)
-            addCorner(front, corner.xyz, a > 0.0 || b >= 0.0 ? corner.w : plane.z);
+            addCorner(front, corner.xyz, a > 0.0 || b >= 0.0 ? corner.w : crossing.plane.z);
         if (wantsBehind && a <= 0.0)
-            addCorner(behind, corner.xyz, a < 0.0 || b <= 0.0 ? corner.w : -plane.z);
+            addCorner(behind, corner.xyz, a < 0.0 || b <= 0.0 ? corner.w : -crossing.plane.z);
         if (a * b < 0.0) {
-            vec3 other = polygonCorners[from * POLYGON_CORNERS + next].xyz;
-            vec3 at = a > 0.0 ? crossing(corner.xyz, a, other, b) : crossing(other, b, corner.xyz, a);
-            addCorner(front, at, a > 0.0 ? plane.z : corner.w);
+            vec3 at = a > 0.0 ? cornerBetween(corner.xyz, a, next.xyz, b) : cornerBetween(next.xyz, b, corner.xyz, a);
+            addCorner(front, at, a > 0.0 ? crossing.plane.z : corner.w);
             if (wantsBehind)
-                addCorner(behind, at, a > 0.0 ? corner.w : -plane.z);
+                addCorner(behind, at, a > 0.0 ? corner.w : -crossing.plane.z);
         }
+        corner = next;
+        a = b;
     }
     if (isCrossed)
         cornerCounts[front] = cornerCounts[front] < 3 ? 0 : cornerCounts[front];

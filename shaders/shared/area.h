@@ -59,6 +59,10 @@ struct AreaLightBlock
     uint light; // that it is a part of, as `owners` count them
 };
 
+// Pixels of a group: narrow, so that the lanes of a CPU device, eight, are close together.
+const uint kAreaGroupWidth = 4u;
+const uint kAreaGroupHeight = 16u;
+
 // Tiles are squares of pixels.
 const uint kAreaTileSize = 16u;
 const uint kAreaTileOccluders = 31u;
@@ -116,6 +120,19 @@ struct AreaShade
     uint mostPieces;
     uint rays; // a light; the reference: 0 keeps the means
     uint frameIndex; // of the reference's accumulation
+    int pixelScale; // of the images that are written to the G-buffer: 1, 2, 4
+};
+
+struct AreaUpsample
+{
+    uint frame; // slot of a FrameBlock
+    uint depth;
+    uint normals;
+    uint diffuseLit; // as AreaShade writes them
+    uint specularLit;
+    uint diffuse; // written
+    uint specular;
+    int pixelScale;
 };
 
 #endif

@@ -61,7 +61,8 @@ std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes)
             {"FACE_WORDS", static_cast<int>(sizes.faces / 32)},
             {"OUTLINE_CORNERS", static_cast<int>(sizes.outlineCorners)},
             {"LIGHT_VERTICES", static_cast<int>(sizes.lightVertices)},
-            {"AREA_OCCLUDERS", static_cast<int>(kOccludersALight)}};
+            {"AREA_OCCLUDERS", static_cast<int>(kOccludersALight)},
+            {"AREA_SIGNED", static_cast<int>(kOccludersALight)}};
 }
 
 gpu::Image uploadedTable(gpu::Device& device, std::string_view label, uint32_t size, const std::vector<vec4>& texels)
@@ -132,7 +133,7 @@ graph::BufferRef AreaLightSystem::declareTiles(graph::FrameGraph& graph, const F
 }
 
 void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const AreaLightRange& range, const AreaLit& before,
-                                   const AreaLit& made, graph::BufferRef counters, uint32_t rays, uint32_t frameIndex)
+                                   const AreaLit& made, graph::BufferRef counters, uint32_t rays, uint32_t frameIndex, uint32_t scale)
 {
     const GBuffer& g = *frame.g;
     for (const graph::ImageRef image : {g.depth, g.normals, g.albedo, g.material, before.diffuse, before.specular})
@@ -147,7 +148,7 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
                                                  rounded(bodies_.sizes())});
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
     pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range, before,
-                 made, counters, traced, rays, frameIndex,
+                 made, counters, traced, rays, frameIndex, scale,
                  mostPieces = frame.view->knobs.area.pieces](graph::Recorder& recorder) {
         const auto sampled = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNothingBefore; };
         recorder.dispatch(pipeline,
@@ -170,8 +171,9 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
                                             .endLight = range.end,
                                             .mostPieces = mostPieces,
                                             .rays = rays,
-                                            .frameIndex = frameIndex},
-                          recorder.extent(g.depth));
+                                            .frameIndex = frameIndex,
+                                            .pixelScale = static_cast<int>(scale)},
+                          recorder.extent(made.diffuse), {shader::kAreaGroupWidth, shader::kAreaGroupHeight});
     });
 }
 
@@ -193,7 +195,7 @@ AreaLit AreaLightSystem::declareReference(graph::FrameGraph& graph, const Frame&
     const AreaLit mean{pass.write(diffuse.now, Use::StorageWrite),
                        frame.isGlossy ? pass.write(specular.now, Use::StorageWrite) : graph::ImageRef{}};
     const AreaLit before = referenceFrames_ > 0 ? AreaLit{diffuse.before, specular.before} : AreaLit{};
-    declareShade(pass, frame, range, before, mean, counters, isDone ? 0 : kReferenceRays, referenceFrames_);
+    declareShade(pass, frame, range, before, mean, counters, isDone ? 0 : kReferenceRays, referenceFrames_, 1);
     referenceFrames_ += isDone ? 0 : 1;
     return mean;
 }
@@ -203,16 +205,45 @@ AreaLit AreaLightSystem::declareLights(graph::FrameGraph& graph, const Frame& fr
 {
     graph::Pass pass = graph.add(passOf(range.shadow));
     counters = pass.write(counters, Use::StorageWrite);
-    const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth};
+    const auto scale = static_cast<uint32_t>(frame.scale);
+    const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth, .scale = 1.0f / static_cast<float>(scale)};
     const AreaLit made{pass.create("area diffuse", desc, Use::StorageWrite),
                        frame.isGlossy ? pass.create("area specular", desc, Use::StorageWrite) : graph::ImageRef{}};
-    declareShade(pass, frame, range, before, made, counters, frame.view->knobs.area.rays, 0);
+    declareShade(pass, frame, range, before, made, counters, frame.view->knobs.area.rays, 0, scale);
+    return made;
+}
+
+AreaLit AreaLightSystem::declareUpsample(graph::FrameGraph& graph, const Frame& frame, const AreaLit& lit)
+{
+    gpu::Pipeline& pipeline = upsample_[frame.isGlossy ? 1 : 0];
+    constexpr gpu::ShaderDefine glossy{"GLOSSY"};
+    if (!pipeline)
+        pipeline = computePipeline(*device_, "area_upsample.comp", std::span(&glossy, frame.isGlossy ? 1 : 0));
+    graph::Pass pass = graph.add("area upsample");
+    for (const graph::ImageRef image : {frame.g->depth, frame.g->normals, lit.diffuse, lit.specular})
+        if (image)
+            pass.read(image, Use::Sampled);
+    const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth};
+    const AreaLit made{pass.create("area diffuse, upsampled", desc, Use::StorageWrite),
+                       frame.isGlossy ? pass.create("area specular, upsampled", desc, Use::StorageWrite) : graph::ImageRef{}};
+    pass.record([&pipeline, slot = frame.slot, g = *frame.g, lit, made, scale = static_cast<uint32_t>(frame.scale)](graph::Recorder& recorder) {
+        recorder.dispatch(pipeline,
+                          shader::AreaUpsample{.frame = slot,
+                                               .depth = recorder.sampled(g.depth),
+                                               .normals = recorder.sampled(g.normals),
+                                               .diffuseLit = recorder.sampled(lit.diffuse),
+                                               .specularLit = lit.specular ? recorder.sampled(lit.specular) : 0,
+                                               .diffuse = recorder.storage(made.diffuse),
+                                               .specular = made.specular ? recorder.storage(made.specular) : 0,
+                                               .pixelScale = static_cast<int>(scale)},
+                          recorder.extent(g.depth) / scale + 2u);
+    });
     return made;
 }
 
 void AreaLightSystem::skipAll(graph::FrameGraph& graph)
 {
-    for (const std::string_view pass : {"area tiles", "area analytic", "area unshadowed", "area traced", "area reference"})
+    for (const std::string_view pass : {"area tiles", "area analytic", "area unshadowed", "area traced", "area reference", "area upsample"})
         graph.skip(pass, "no AreaLight in the scene");
     prepareTables(false);
 }
@@ -233,6 +264,7 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                 .area = bodies_.write(view, tileCount.x),
                 .tiles = {},
                 .slot = slot,
+                .scale = view.hasReferenceLights() ? Scale::Full : view.knobs.area.scale,
                 .isGlossy = static_cast<bool>(g.material)};
     prepareTables(frame.isGlossy);
     AreaLit lit;
@@ -243,6 +275,9 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
         lit = range.shadow == LightShadow::Reference ? declareReference(graph, frame, range, counters)
                                                      : declareLights(graph, frame, range, lit, counters);
     }
+    if (frame.scale != Scale::Full)
+        return declareUpsample(graph, frame, lit);
+    graph.skip("area upsample", "area light is found for every pixel");
     return lit;
 }
 

@@ -51,6 +51,7 @@ private:
         VkDeviceAddress area;
         graph::BufferRef tiles;
         uint32_t slot; // of the FrameBlock
+        Scale scale;
         bool isGlossy;
     };
 
@@ -62,12 +63,14 @@ private:
     AreaLit declareLights(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range, const AreaLit& before,
                           graph::BufferRef& counters);
     void declareShade(graph::Pass& pass, const Frame& frame, const AreaLightRange& range, const AreaLit& before, const AreaLit& made,
-                      graph::BufferRef counters, uint32_t rays, uint32_t frameIndex);
+                      graph::BufferRef counters, uint32_t rays, uint32_t frameIndex, uint32_t scale);
+    AreaLit declareUpsample(graph::FrameGraph& graph, const Frame& frame, const AreaLit& lit);
 
     gpu::Device* device_;
     AreaBodies bodies_;
     std::vector<Made> pipelines_; // each made when first asked for
     gpu::Pipeline tiles_;
+    std::array<gpu::Pipeline, 2> upsample_; // by whether glossy
     gpu::Image ltcMatrix_, ltcAmplitude_; // only while something glossy is lit
     graph::HistorySlot diffuseHistory_, specularHistory_;
     uint64_t seen_ = 0;
