@@ -27,6 +27,7 @@ int edgeCount = 0;
 
 uint frontFaces[FACE_WORDS]; // of the body that was looked at last; those in whose plane the point lies count as front
 uint levelFaces[FACE_WORDS]; // the point lies in their plane
+bool hasFaces; // some have area
 
 bool isFront(uint face) { return (frontFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
 bool isLevel(uint face) { return (levelFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
@@ -43,17 +44,22 @@ float heightOver(BodyArrays arrays, BodyBlock body, FaceBlock face, vec3 point)
     return dot(face.normal, point - bodyVertex(arrays, body, faceCorner(arrays, face, 0u)));
 }
 
-// Finds frontFaces and levelFaces; whether there is any front one. `tolerance` in metres: so near its plane a point is level with a face.
+// Finds frontFaces, levelFaces and hasFaces; whether there is any front one. `tolerance` in metres: so near its plane a point is level with
+// a face. A face without area has no sides: one that counted as front would make any body open.
 bool findFronts(BodyArrays arrays, BodyBlock body, vec3 point, float tolerance)
 {
     bool hasFront = false;
+    hasFaces = false;
     for (uint word = 0u; 32u * word < body.faceCount; ++word) {
         uint fronts = 0u, levels = 0u;
         uint count = min(body.faceCount - 32u * word, 32u);
         for (uint bit = 0u; bit < count; ++bit) {
-            float height = heightOver(arrays, body, bodyFace(arrays, body, 32u * word + bit), point);
-            fronts |= height >= -tolerance ? 1u << bit : 0u;
-            levels |= abs(height) <= tolerance ? 1u << bit : 0u;
+            FaceBlock face = bodyFace(arrays, body, 32u * word + bit);
+            float height = heightOver(arrays, body, face, point);
+            bool hasArea = dot(face.normal, face.normal) > 0.0;
+            fronts |= hasArea && height >= -tolerance ? 1u << bit : 0u;
+            levels |= hasArea && abs(height) <= tolerance ? 1u << bit : 0u;
+            hasFaces = hasFaces || hasArea;
         }
         frontFaces[word] = fronts;
         levelFaces[word] = levels;
@@ -139,18 +145,27 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
         addEdge(first, start, end - start, vec4(planeThrough(start, end - start), 0.0), start, end);
 }
 
-// A mesh of floats is convex to rounding alone, and the plane through a short edge tells: it goes where it cuts into the silhouette.
+// A mesh of floats is convex to rounding alone. The plane through a short edge tells: it goes where it cuts into the silhouette. And a
+// face seen edge-on may count otherwise than its neighbours, front among backs or back among fronts: then edges run back over the others,
+// with planes that leave nothing of what the body hides. One such plane has the middle of the silhouette behind it: all are tried then.
 void dropFalsePlanes(int first)
 {
-    int kept = first;
     int ends = 2 * (edgeCount - first);
+    vec3 middle = vec3(0.0);
+    for (int k = 0; k < ends; ++k)
+        middle += edgeEnds[k];
+    bool isFolded = false;
+    for (int i = first; i < edgeCount; ++i)
+        isFolded = isFolded || dot(edgePlanes[i].xyz, middle) < -1.0e-6 * float(ends);
+    int kept = first;
     for (int i = first; i < edgeCount; ++i) {
         vec3 chord = edgeEnds[2 * (i - first)] - edgeEnds[2 * (i - first) + 1];
         float chord2 = dot(chord, chord), lowest = 0.0;
-        int count = chord2 < 4.0e-4 ? ends : 0;
+        int count = isFolded || chord2 < 4.0e-4 ? ends : 0;
         for (int k = 0; k < count; ++k)
             lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
-        if (lowest < -1.0e-6 && lowest * lowest > 0.25 * chord2)
+        // What rounding may do: it tilts a plane by its share of the edge; what a short edge bounds, its neighbours bound as well.
+        if (lowest < -1.0e-6 && lowest * lowest > min(0.25 * chord2, 1.0e-8))
             continue;
         edgeStarts[kept] = edgeStarts[i];
         edgeSpans[kept] = edgeSpans[i];
@@ -165,6 +180,8 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
 {
     bool isPlanar = (body.flags & kBodyPlanar) != 0u;
     bool hasFront = findFronts(arrays, body, point, 5.0e-7 * reachOf(body, point));
+    if (!hasFaces)
+        return true; // a line or a place
     if (isPlanar && (isLevel(0u) || (!hasFront && (body.flags & kBodyFrontOnly) != 0u)))
         return true; // edge-on, or a side that does not block
     if (!isPlanar && !hasFront)
@@ -176,8 +193,7 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
         for (uint i = 0u; i < body.faceCount; ++i)
             if (isPlanar || (isFront(i) && !isLevel(i)))
                 addCutFace(first, arrays, body, point, i, plane);
-    if (!isPlanar)
-        dropFalsePlanes(first);
+    dropFalsePlanes(first);
     return true;
 }
 
