@@ -24,6 +24,7 @@ vec3 edgeSpans[SILHOUETTE_EDGES];
 vec4 edgePlanes[SILHOUETTE_EDGES]; // unit, what the body hides in front. w: 1 where it is a face's plane, not that of the edge
 vec3 edgeEnds[2 * SILHOUETTE_BODY_EDGES]; // unit, of the body that was gathered last: what of the edge is in front of the cut
 int edgeCount = 0;
+bool silhouetteFits; // nothing was left out since it was set
 
 uint frontFaces[FACE_WORDS]; // of the body that was looked at last; those in whose plane the point lies count as front
 uint levelFaces[FACE_WORDS]; // the point lies in their plane
@@ -74,7 +75,9 @@ float reachOf(BodyBlock body, vec3 point) { return distance(body.centre, point) 
 void addEdge(int first, vec3 start, vec3 span, vec4 plane, vec3 startSeen, vec3 endSeen)
 {
     bool hasPlane = dot(plane.xyz, plane.xyz) > 0.0;
-    if (!hasPlane || edgeCount >= SILHOUETTE_EDGES || edgeCount - first >= SILHOUETTE_BODY_EDGES)
+    bool isFull = edgeCount >= SILHOUETTE_EDGES || edgeCount - first >= SILHOUETTE_BODY_EDGES;
+    silhouetteFits = silhouetteFits && !(hasPlane && isFull);
+    if (!hasPlane || isFull)
         return;
     edgeStarts[edgeCount] = start;
     edgeSpans[edgeCount] = span;
