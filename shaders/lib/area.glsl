@@ -115,10 +115,11 @@ void findSolidOutline(BodyArrays arrays, BodyBlock light, vec3 point)
     }
     if (edges == 0)
         return;
+    bool isComplete = edges < LIGHT_VERTICES; // else some corners may have no next one
     uint vertex = starts[0];
     do {
         addOutlineCorner(bodyVertex(arrays, light, vertex) - point);
-        vertex = next[vertex];
+        vertex = isComplete ? next[vertex] : vertex;
     } while (vertex != starts[0] && outlineCount < min(edges, OUTLINE_CORNERS));
     if (outlineCount != edges || vertex != starts[0]) {
         outlineCount = 0;

@@ -144,8 +144,9 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
         aHeight = bHeight;
     }
     vec3 start = isFront(index) ? entering : leaving, end = isFront(index) ? leaving : entering;
+    vec4 through = isLevel(index) ? vec4(-face.normal, 1.0) : vec4(planeThrough(start, end - start), 0.0);
     if (leaves && enters)
-        addEdge(first, start, end - start, vec4(planeThrough(start, end - start), 0.0), start, end);
+        addEdge(first, start, end - start, through, start, end);
 }
 
 // A mesh of floats is convex to rounding alone. The plane through a short edge tells: it goes where it cuts into the silhouette. And a
@@ -164,11 +165,12 @@ void dropFalsePlanes(int first)
     for (int i = first; i < edgeCount; ++i) {
         vec3 chord = edgeEnds[2 * (i - first)] - edgeEnds[2 * (i - first) + 1];
         float chord2 = dot(chord, chord), lowest = 0.0;
-        int count = isFolded || chord2 < 4.0e-4 ? ends : 0;
+        bool isTried = (isFolded || chord2 < 4.0e-4) && edgePlanes[i].w == 0.0; // that of a face has nothing to do with the edge
+        int count = isTried ? ends : 0;
         for (int k = 0; k < count; ++k)
             lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
         // What rounding may do: it tilts a plane by its share of the edge; what a short edge bounds, its neighbours bound as well.
-        if (lowest < -1.0e-6 && lowest * lowest > min(0.25 * chord2, 1.0e-8))
+        if (lowest < -1.0e-6 && lowest * lowest > min(0.25 * chord2, 1.0e-9))
             continue;
         edgeStarts[kept] = edgeStarts[i];
         edgeSpans[kept] = edgeSpans[i];
@@ -194,7 +196,7 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
         addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);
     if (isCut)
         for (uint i = 0u; i < body.faceCount; ++i)
-            if (isPlanar || (isFront(i) && !isLevel(i)))
+            if (isPlanar || isFront(i))
                 addCutFace(first, arrays, body, point, i, plane);
     dropFalsePlanes(first);
     return true;
