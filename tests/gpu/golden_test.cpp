@@ -152,6 +152,7 @@ TEST_F(Golden, MalformedAreaCasesAreRefusedByNameOfTheFile)
         {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, 4]])"},
         {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, -1]])"},
         {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, 2], [0, 1, 3]])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, 2], [0, 2, 3]])"},
         {R"("two_sided": false)", R"("two_sided": 2)"},
         {R"("kind": "card")", R"("kind": "cord")"},
         {R"("kind": "card")", R"("kind": "convex")"},
