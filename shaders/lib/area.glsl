@@ -128,6 +128,20 @@ void findSolidOutline(BodyArrays arrays, BodyBlock light, vec3 point)
 #endif
 }
 
+// Whether the outline is wider than a millionth of its length. A line of a light gives nothing, but its corners are in no order, and a
+// plane through it would find more of them on either side than a polygon has.
+bool isOutlineWide()
+{
+    vec3 area = vec3(0.0);
+    float longest2 = 0.0;
+    for (int i = 1; i + 1 < outlineCount; ++i) {
+        vec3 span = outline[i] - outline[0], next = outline[i + 1] - outline[0];
+        area += cross(span, next);
+        longest2 = max(longest2, max(dot(span, span), dot(next, next)));
+    }
+    return dot(area, area) > 1.0e-12 * longest2 * longest2;
+}
+
 // Whether the light shines on the point at all. Forgets the occluders of the light before.
 bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
 {
@@ -142,7 +156,7 @@ bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
         findPlanarOutline(arrays, light, point);
     else
         findSolidOutline(arrays, light, point);
-    return outlineCount >= 3;
+    return outlineCount >= 3 && isOutlineWide();
 }
 
 bool planeMissesOutline(vec3 plane)
