@@ -24,7 +24,7 @@ AreaProblem coincidentCorners(RandomInputs& random)
     scene.add(triangle(a, a + inPlane(random, 0.4), b + inPlane(random, 0.1)));
     scene.add(triangle(a, a + inPlane(random, 0.4), b));
     if (random.index(2) == 0) { // a corner of a box on the way to a corner of the light, another on that to a triangle's
-        const double size = dyadic(random, 0.05, 0.2);
+        const double size = a.z * 0.125 * someShare(random); // which keeps it above the point
         scene.add(placed(boxShape(), Placement{.scale = dvec3(size), .position = a * 0.5 + dvec3(size, size, -size)}));
     }
     return maybeTurned(random, scene.problem);

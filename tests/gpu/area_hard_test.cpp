@@ -90,9 +90,10 @@ bool AreaHard::isBetweenNeighbours(const app::AreaProblem& problem, const shader
         };
         if (isBetween(found.unoccluded, least.unoccluded, most.unoccluded) && isBetween(found.shadowed, least.visible, most.visible))
             return true;
-        // Bodies that go through each other, or over the point, do so as a whole.
+        // Bodies that go through each other, or over the point, do so as a whole; what is flat is so to the jitter, and its triangles less.
         const Jitter kind = i % 2 == 0 ? Jitter::Bodies : GetParam().jitterKind;
-        shares = areaTwin<double>(inTriangles(jittered(problem, around_, kUndecided * sizeOf(problem), kind)));
+        const app::AreaProblem neighbour = jittered(problem, around_, kUndecided * sizeOf(problem), kind);
+        shares = areaTwin<double>(i % 4 < 2 ? neighbour : inTriangles(neighbour));
     }
     return false;
 }
