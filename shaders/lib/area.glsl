@@ -61,6 +61,19 @@ void findPlanarOutline(BodyArrays arrays, BodyBlock light, vec3 point)
 }
 
 #ifndef PLANAR_LIGHTS
+// Whether an outline of directions is wider than a millionth of its length. That of a line is not: its corners are in no order, and a plane
+// through it finds more of them on either side than a polygon has.
+bool isOutlineWide()
+{
+    float area = 0.0, longest2 = 0.0;
+    for (int i = 1; i + 1 < outlineCount; ++i) {
+        vec3 span = outline[i] - outline[0], next = outline[i + 1] - outline[0];
+        area += dot(outline[0], cross(span, next));
+        longest2 = max(longest2, max(dot(span, span), dot(next, next)));
+    }
+    return abs(area) > 1.0e-6 * longest2;
+}
+
 // The edge of the cone around directions in no order: from the outermost on, always to that which leaves no other outside. For silhouettes
 // that are not one loop: faces without area, or seen edge-on, may count otherwise than their neighbours.
 void wrapOutline(BodyArrays arrays, BodyBlock light, vec3 point, uint vertices[LIGHT_VERTICES], int count)
@@ -74,7 +87,8 @@ void wrapOutline(BodyArrays arrays, BodyBlock light, vec3 point, uint vertices[L
         leastCosine = min(leastCosine, dot(direction, middle));
     }
     vec3 corner = first;
-    for (int turn = 0; turn < count && (turn == 0 || corner != first); ++turn) {
+    int seen = -1; // where the corner is in the outline
+    while (seen < 0 && outlineCount < min(count, OUTLINE_CORNERS)) {
         addOutlineCorner(corner);
         vec3 next = corner, plane = vec3(0.0);
         for (int i = 0; i < count; ++i) {
@@ -87,7 +101,14 @@ void wrapOutline(BodyArrays arrays, BodyBlock light, vec3 point, uint vertices[L
             }
         }
         corner = next;
+        for (int i = 0; i < outlineCount; ++i)
+            seen = outline[i] == corner ? i : seen;
     }
+    // The first ones need not be corners, where all are nearly in one line.
+    for (int i = 0; seen > 0 && i + seen < outlineCount; ++i)
+        outline[i] = outline[i + seen];
+    outlineCount -= max(seen, 0);
+    outlineCount = isOutlineWide() ? outlineCount : 0;
 }
 #endif
 
@@ -128,20 +149,6 @@ void findSolidOutline(BodyArrays arrays, BodyBlock light, vec3 point)
 #endif
 }
 
-// Whether the outline is wider than a millionth of its length. A line of a light gives nothing, but its corners are in no order, and a
-// plane through it would find more of them on either side than a polygon has.
-bool isOutlineWide()
-{
-    vec3 area = vec3(0.0);
-    float longest2 = 0.0;
-    for (int i = 1; i + 1 < outlineCount; ++i) {
-        vec3 span = outline[i] - outline[0], next = outline[i + 1] - outline[0];
-        area += cross(span, next);
-        longest2 = max(longest2, max(dot(span, span), dot(next, next)));
-    }
-    return dot(area, area) > 1.0e-12 * longest2 * longest2;
-}
-
 // Whether the light shines on the point at all. Forgets the occluders of the light before.
 bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
 {
@@ -156,7 +163,7 @@ bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
         findPlanarOutline(arrays, light, point);
     else
         findSolidOutline(arrays, light, point);
-    return outlineCount >= 3 && isOutlineWide();
+    return outlineCount >= 3;
 }
 
 bool planeMissesOutline(vec3 plane)
@@ -197,7 +204,7 @@ uint placeOfBody(BodyArrays arrays, BodyBlock body, vec3 point, CutPlane plane)
     float centreHeight = dot(plane.normal, body.centre - point) + plane.offset;
     if (abs(centreHeight) > body.radius)
         return centreHeight > 0.0 ? kInFrontOfPlane : kBehindPlane;
-    float tolerance = 2.0e-7 * reachOf(body, point);
+    float tolerance = 5.0e-7 * reachOf(body, point); // of vertices that were rounded, and of a normal
     bool isWhole = true, hasPart = false;
     for (uint i = 0u; i < body.vertexCount; ++i) {
         float height = dot(plane.normal, bodyVertex(arrays, body, i) - point) + plane.offset;
