@@ -169,8 +169,9 @@ void dropFalsePlanes(int first)
         int count = isTried ? ends : 0;
         for (int k = 0; k < count; ++k)
             lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
-        // What rounding may do: it tilts a plane by its share of the edge; what a short edge bounds, its neighbours bound as well.
-        if (lowest < -1.0e-6 && lowest * lowest > min(0.25 * chord2, 1.0e-9))
+        // Rounding tilts planes of short edges, and their neighbours bound what they would. Of long ones only those that run back go.
+        float most2 = chord2 < 4.0e-4 ? min(0.25 * chord2, 1.0e-9) : 1.0e-7;
+        if (lowest < -1.0e-6 && lowest * lowest > most2)
             continue;
         edgeStarts[kept] = edgeStarts[i];
         edgeSpans[kept] = edgeSpans[i];
