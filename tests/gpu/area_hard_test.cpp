@@ -21,6 +21,7 @@ constexpr uint32_t kBatch = 1024;                             // problems in mem
 constexpr double kMostChange = 1e-3;
 // Planes that the point lies in are known to half a millionth of the body's reach (Guard 4): within it, sides are a matter of choice.
 constexpr double kUndecided = 1e-6;
+constexpr double kSlack = 1e-2;     // past the neighbours that were tried; what is 1e-6 away has two digits in floats
 constexpr double kMostLost = 0.005; // share of instances that do not fit (AreaAnswer::fallbacks)
 
 struct Tally
@@ -80,14 +81,11 @@ AreaShares sharesWithoutEdgeOn(app::AreaProblem problem)
 bool AreaHard::isBetweenNeighbours(const app::AreaProblem& problem, const shader::AreaAnswer& found)
 {
     constexpr int kMostNeighbours = 256;
-    AreaShares least{1, 1}, most{0, 0};
-    AreaShares shares = sharesWithoutEdgeOn(problem);
+    AreaShares least = areaTwin<double>(problem), most = least, shares = sharesWithoutEdgeOn(problem);
     for (int i = 0; i < kMostNeighbours; ++i) {
         least = {std::min(least.unoccluded, shares.unoccluded), std::min(least.visible, shares.visible)};
         most = {std::max(most.unoccluded, shares.unoccluded), std::max(most.visible, shares.visible)};
-        const auto isBetween = [](double value, double low, double high) {
-            return value >= low - kMostChange && value <= high + kMostChange;
-        };
+        const auto isBetween = [](double value, double low, double high) { return value >= low - kSlack && value <= high + kSlack; };
         if (isBetween(found.unoccluded, least.unoccluded, most.unoccluded) && isBetween(found.shadowed, least.visible, most.visible))
             return true;
         // Bodies that go through each other, or over the point, do so as a whole; what is flat is so to the jitter, and its triangles less.

@@ -74,7 +74,8 @@ public:
             if (light.heights[face] <= least && !isFlipped)
                 continue;
             const Polygon<Real> polygon = seenFace(light, face, isFlipped);
-            const Real sign = isFlipped ? -1 : 1, unoccluded = formFactor(polygon);
+            const Real sign = isFlipped ? -1 : 1,
+                       unoccluded = std::max(formFactor(polygon), Real(0)); // corners off its plane turn it around
             sum.unoccluded += unoccluded;
             sum.visible += visibleShare(polygon, unoccluded, {light.normals[face] * sign, light.heights[face] * sign});
         }
@@ -142,7 +143,8 @@ private:
                 Real lowest = 0;
                 for (const auto& [start, end] : arcs)
                     lowest = std::min({lowest, glm::dot(worldPlanes[i], start), glm::dot(worldPlanes[i], end)});
-                if (-lowest <= std::max(Real(1e-6), std::min(length / 2, Real(3e-5))))
+                const Real most = length < Real(0.02) ? std::min(length / 2, Real(3e-5)) : Real(3e-4);
+                if (-lowest <= std::max(Real(1e-6), most))
                     kept.push_back(planes[i]);
             }
             planes = kept;

@@ -68,7 +68,7 @@ Real formFactor(const Polygon<Real>& polygon)
         if (chord2 < Real(0.3))
             sum += curvature(chord2) * crossZ;
         else if (chord2 < Real(3.8))
-            sum += (angle / glm::length(glm::cross(a, chord)) - 1) * crossZ;
+            sum += (angle / std::max(glm::length(glm::cross(a, chord)), Real(1e-6)) - 1) * crossZ; // zero for a crossing of opposite ends
         else
             sum += angle * polygon[i].planeZ - crossZ;
     }
