@@ -25,12 +25,12 @@ AreaAnswer answerOf(AreaCase at)
     Bodies bodies = Bodies(pc.arrays.bodies);
     BodyBlock light = bodies.body[at.light];
     if (!beginLight(pc.arrays, light, at.position))
-        return AreaAnswer(0.0, 0.0, 0u);
+        return AreaAnswer(0.0, 0.0, isLightLost ? 1u : 0u);
     for (uint i = 0u; i < at.occluderCount; ++i)
         addOccluder(pc.arrays, light, bodies.body[at.firstOccluder + i], at.position);
     mat3 tangentSpace = transpose(mat3(at.tangent, cross(at.normal, at.tangent), at.normal));
     AreaShare share = areaShare(transpose(mat3(at.lobe[0], at.lobe[1], at.lobe[2])) * tangentSpace, at.normal, pc.mostPieces);
-    return AreaAnswer(share.unoccluded, share.visible, share.fallbacks + (isOccluderLost ? 1u : 0u));
+    return AreaAnswer(share.unoccluded, share.visible, share.fallbacks + (isOccluderLost || isLightLost ? 1u : 0u));
 }
 
 void main()

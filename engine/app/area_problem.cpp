@@ -98,11 +98,26 @@ AreaProblem areaProblemOf(const EvalCase& from)
         light.refuse("vertices", "expected at most " + std::to_string(kMostLightVertices));
     const std::vector<scene::Loop> faces = readFaces(lightValue, light, vertices.size());
     problem.light = linked(std::move(vertices), faces, light);
+    if (!problem.light.isPlanar && !scene::isClosed(problem.light))
+        light.refuse("faces", "expected one face or a closed mesh");
     problem.isTwoSided = light.flag("two_sided", false);
     const std::vector<JsonObject> occluders = from.object.objects("occluders");
     for (size_t i = 0; i < occluders.size(); ++i)
         addOccluder(problem.occluders, from.value["occluders"][i], occluders[i]);
     return problem;
+}
+
+shader::AreaCase deviceCase(const AreaProblem& problem, render::BodyBlocks& bodies, const mat4& toWorld)
+{
+    shader::AreaCase made{.position = problem.position, .normal = problem.normal, .tangent = problem.tangent};
+    for (size_t row = 0; row < 3; ++row)
+        made.lobe[row] = problem.lobe[row];
+    made.light = bodies.add(problem.light, toWorld, problem.isTwoSided ? shader::kBodyTwoSided : 0u);
+    made.firstOccluder = static_cast<uint32_t>(bodies.bodies.size());
+    made.occluderCount = static_cast<uint32_t>(problem.occluders.size());
+    for (const AreaOccluder& occluder : problem.occluders)
+        bodies.add(occluder.body, toWorld, occluder.isFrontOnly ? shader::kBodyFrontOnly : 0u);
+    return made;
 }
 
 } // namespace antumbra::app

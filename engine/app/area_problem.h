@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/eval_cases.h"
-#include "scene/convex_body.h"
+#include "render/body_blocks.h"
 
 namespace antumbra::app {
 
@@ -25,5 +25,8 @@ struct AreaProblem
 
 /// Throws Error that names the place in the file where the case is malformed.
 AreaProblem areaProblemOf(const EvalCase& from);
+
+/// As shaders/eval_area.comp takes it; its bodies are added, moved by `toWorld`, which moves nothing else.
+shader::AreaCase deviceCase(const AreaProblem& problem, render::BodyBlocks& bodies, const mat4& toWorld = mat4{1});
 
 } // namespace antumbra::app

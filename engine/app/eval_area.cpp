@@ -13,19 +13,6 @@ using nlohmann::json;
 
 constexpr uint32_t kMostPieces = 1u << 20; // none is left to samples
 
-shader::AreaCase deviceCase(const AreaProblem& problem, render::BodyBlocks& bodies)
-{
-    shader::AreaCase made{.position = problem.position, .normal = problem.normal, .tangent = problem.tangent};
-    for (size_t row = 0; row < 3; ++row)
-        made.lobe[row] = problem.lobe[row];
-    made.light = bodies.add(problem.light, mat4{1}, problem.isTwoSided ? shader::kBodyTwoSided : 0u);
-    made.firstOccluder = static_cast<uint32_t>(bodies.bodies.size());
-    made.occluderCount = static_cast<uint32_t>(problem.occluders.size());
-    for (const AreaOccluder& occluder : problem.occluders)
-        bodies.add(occluder.body, mat4{1}, occluder.isFrontOnly ? shader::kBodyFrontOnly : 0u);
-    return made;
-}
-
 /// The distance to the nearer end of what is allowed, in units of the case's tolerance: both shares near their answers, and 0 <= shadowed
 /// <= unoccluded to a millionth.
 void compare(const EvalCase& each, const shader::AreaAnswer& found, Comparison& comparison)

@@ -23,6 +23,7 @@ vec3 outline[OUTLINE_CORNERS];
 vec3 outlinePlanes[OUTLINE_CORNERS];
 int outlineCount = 0;
 bool isLightFlipped; // planar, and seen from behind
+bool isLightLost; // it has more corners than fit: some are left out, or all
 
 // Occluders: silhouettes that may meet the outline, as ranges of edges.
 int occluderFirst[AREA_OCCLUDERS];
@@ -52,37 +53,100 @@ void findPlanarOutline(BodyArrays arrays, BodyBlock light, vec3 point)
     FaceBlock face = bodyFace(arrays, light, 0u);
     bool isFromFront = seesFace(arrays, light, face, point, 1.0);
     isLightFlipped = !isFromFront && (light.flags & kBodyTwoSided) != 0u && seesFace(arrays, light, face, point, -1.0);
-    uint count = isFromFront || isLightFlipped ? face.cornerCount : 0u;
-    for (uint i = 0u; i < count; ++i)
-        addOutlineCorner(bodyVertex(arrays, light, faceCorner(arrays, face, isLightFlipped ? i : count - 1u - i)) - point);
+    uint all = isFromFront || isLightFlipped ? face.cornerCount : 0u, count = min(all, OUTLINE_CORNERS);
+    isLightLost = count < all;
+    for (uint i = 0u; i < count; ++i) {
+        uint corner = i * all / count; // of too many, some all around
+        addOutlineCorner(bodyVertex(arrays, light, faceCorner(arrays, face, isLightFlipped ? corner : all - 1u - corner)) - point);
+    }
 }
+
+#ifndef PLANAR_LIGHTS
+// Whether an outline of directions is wider than a millionth of its length. That of a line is not: its corners are in no order, and a plane
+// through it finds more of them on either side than a polygon has.
+bool isOutlineWide()
+{
+    float area = 0.0, longest2 = 0.0;
+    for (int i = 1; i + 1 < outlineCount; ++i) {
+        vec3 span = outline[i] - outline[0], next = outline[i + 1] - outline[0];
+        area += dot(outline[0], cross(span, next));
+        longest2 = max(longest2, max(dot(span, span), dot(next, next)));
+    }
+    return abs(area) > 1.0e-6 * longest2;
+}
+
+// The edge of the cone around directions in no order: from the outermost on, always to that which leaves no other outside. For silhouettes
+// that are not one loop: faces without area, or seen edge-on, may count otherwise than their neighbours.
+void wrapOutline(BodyArrays arrays, BodyBlock light, vec3 point, uint vertices[LIGHT_VERTICES], int count)
+{
+    vec3 middle = unitOrZero(light.centre - point);
+    vec3 first = vec3(0.0);
+    float leastCosine = 2.0;
+    for (int i = 0; i < count; ++i) {
+        vec3 direction = unitOrZero(bodyVertex(arrays, light, vertices[i]) - point);
+        first = dot(direction, middle) < leastCosine ? direction : first;
+        leastCosine = min(leastCosine, dot(direction, middle));
+    }
+    vec3 corner = first;
+    int seen = -1; // where the corner is in the outline
+    while (seen < 0 && outlineCount < min(count, OUTLINE_CORNERS)) {
+        addOutlineCorner(corner);
+        vec3 next = corner, plane = vec3(0.0);
+        for (int i = 0; i < count; ++i) {
+            vec3 direction = unitOrZero(bodyVertex(arrays, light, vertices[i]) - point);
+            vec3 span = direction - corner;
+            bool isApart = dot(span, span) > 1.0e-13; // else the plane is nothing but rounding
+            if (isApart && (plane == vec3(0.0) || dot(plane, direction) < 0.0)) {
+                next = direction;
+                plane = planeThrough(corner, span);
+            }
+        }
+        corner = next;
+        for (int i = 0; i < outlineCount; ++i)
+            seen = outline[i] == corner ? i : seen;
+    }
+    // The first ones need not be corners, where all are nearly in one line.
+    for (int i = 0; seen > 0 && i + seen < outlineCount; ++i)
+        outline[i] = outline[i + seen];
+    outlineCount -= max(seen, 0);
+    outlineCount = isOutlineWide() ? outlineCount : 0;
+}
+#endif
 
 // Of a closed body: the edges between faces that are seen and faces that are not, one after another.
 void findSolidOutline(BodyArrays arrays, BodyBlock light, vec3 point)
 {
 #ifndef PLANAR_LIGHTS
+    isLightLost = light.vertexCount > LIGHT_VERTICES || light.faceCount > 32u * FACE_WORDS;
+    if (isLightLost)
+        return;
     for (uint word = 0u; word < FACE_WORDS; ++word)
         frontFaces[word] = 0u;
     for (uint i = 0u; i < light.faceCount; ++i)
         frontFaces[i >> 5u] |= seesFace(arrays, light, bodyFace(arrays, light, i), point, 1.0) ? 1u << (i & 31u) : 0u;
-    uint next[LIGHT_VERTICES];
-    uint start = kNoFace;
-    for (uint i = 0u; i < light.edgeCount; ++i) {
+    uint next[LIGHT_VERTICES], starts[LIGHT_VERTICES];
+    int edges = 0;
+    for (uint i = 0u; i < light.edgeCount && edges < LIGHT_VERTICES; ++i) {
         EdgeBlock edge = BodyEdges(arrays.edges).edge[light.firstEdge + i];
         uint a = edge.vertices & 0xffffu, b = edge.vertices >> 16u;
         bool leftFront = isFront(edge.faces & 0xffffu), rightFront = isFront(edge.faces >> 16u);
         if (leftFront != rightFront) {
-            start = leftFront ? b : a;
-            next[start] = leftFront ? a : b;
+            starts[edges] = leftFront ? b : a;
+            next[starts[edges++]] = leftFront ? a : b;
         }
     }
-    if (start == kNoFace)
+    if (edges == 0)
         return;
-    uint vertex = start;
+    bool isComplete = edges < LIGHT_VERTICES; // else some corners may have no next one
+    uint vertex = starts[0];
     do {
         addOutlineCorner(bodyVertex(arrays, light, vertex) - point);
-        vertex = next[vertex];
-    } while (vertex != start && outlineCount < OUTLINE_CORNERS);
+        vertex = isComplete ? next[vertex] : vertex;
+    } while (vertex != starts[0] && outlineCount < min(edges, OUTLINE_CORNERS));
+    if (outlineCount != edges || vertex != starts[0]) {
+        outlineCount = 0;
+        wrapOutline(arrays, light, point, starts, edges);
+    }
 #endif
 }
 
@@ -91,6 +155,7 @@ bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
 {
     outlineCount = 0;
     isLightFlipped = false;
+    isLightLost = false;
     edgeCount = 0;
     occluderCount = 0;
     isAllHidden = false;
@@ -144,16 +209,18 @@ bool outlineMissesSilhouette()
 void addOccluderPart(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, CutPlane plane)
 {
     int first = edgeCount;
-    isAllHidden = !addSilhouette(arrays, body, point, isCut, plane) || isAllHidden;
-    bool misses = edgeCount == first, covers = edgeCount > first;
+    silhouetteFits = body.faceCount <= 32u * FACE_WORDS;
+    if (silhouetteFits)
+        isAllHidden = !addSilhouette(arrays, body, point, isCut, plane) || isAllHidden;
+    bool misses = silhouetteFits && edgeCount == first, covers = silhouetteFits && edgeCount > first;
     for (int i = first; i < edgeCount && !misses; ++i) {
         uint sides = sidesOfOutline(edgePlanes[i].xyz);
         misses = (sides & 1u) == 0u;
         covers = covers && (sides & 2u) == 0u;
     }
     isAllHidden = isAllHidden || (covers && !misses);
-    misses = misses || outlineMissesSilhouette();
-    bool fits = occluderCount < AREA_OCCLUDERS && edgeCount < SILHOUETTE_EDGES && edgeCount - first < SILHOUETTE_BODY_EDGES;
+    misses = misses || (silhouetteFits && outlineMissesSilhouette());
+    bool fits = silhouetteFits && occluderCount < AREA_OCCLUDERS;
     isOccluderLost = isOccluderLost || (!misses && !fits);
     if (misses || !fits) {
         edgeCount = first;
@@ -173,7 +240,7 @@ uint placeOfBody(BodyArrays arrays, BodyBlock body, vec3 point, CutPlane plane)
     float centreHeight = dot(plane.normal, body.centre - point) + plane.offset;
     if (abs(centreHeight) > body.radius)
         return centreHeight > 0.0 ? kInFrontOfPlane : kBehindPlane;
-    float tolerance = 2.0e-7 * reachOf(body, point);
+    float tolerance = 5.0e-7 * reachOf(body, point); // of vertices that were rounded, and of a normal
     bool isWhole = true, hasPart = false;
     for (uint i = 0u; i < body.vertexCount; ++i) {
         float height = dot(plane.normal, bodyVertex(arrays, body, i) - point) + plane.offset;
@@ -247,14 +314,18 @@ float frameSign[kFrames];
 int frameOccluder[kFrames]; // the next one, or the one that is being split by
 int frameEdge[kFrames]; // the next edge to split by; -1: none is
 int scratchA, scratchB;
+bool hiddenFits;
 
-// The part of the polygon that the occluder hides, in scratchA; whether there is any. Both scratch places may change names.
+// The part of the polygon that the occluder hides, in scratchA; whether there is any. Both scratch places may change names. Where the part
+// needs more corners than there are, hiddenFits gets false.
 bool findHidden(int place, int occluder)
 {
     int from = place;
     bool isHit = true;
+    hiddenFits = true;
     for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder] && isHit; ++edge) {
         Crossing crossing = crossingOf(from, lobePlanes[edge]);
+        hiddenFits = hiddenFits && (!isCut(crossing) || hasRoomForCut(from));
         cut(from, crossing, scratchB, scratchA, false, isCut(crossing));
         if (isCut(crossing)) {
             int made = scratchB;
@@ -326,10 +397,13 @@ int splitFurther(int top)
     return cornerCounts[outside] > 0 ? top + 1 : top;
 }
 
+// Of the polygon at place 0. One that the point nearly lies in rounds to anything.
+float wholeShare() { return clamp(formFactor(0, true), 0.0, 1.0); }
+
 // The form factor of what the occluders leave of the polygon at place 0. `mostPieces`: the rest is left to samples.
 AreaShare visibleShare(uint mostPieces)
 {
-    AreaShare found = AreaShare(formFactor(0, true), 0.0, 1u, 0u);
+    AreaShare found = AreaShare(wholeShare(), 0.0, 1u, 0u);
     bool isSplit = false; // the light itself
     for (int i = 0; i < kFrames; ++i)
         framePlace[i] = i;
@@ -353,8 +427,10 @@ AreaShare visibleShare(uint mostPieces)
         bool isHit = false;
         while (occluder < occluderCount && !isHit && !isFull) {
             isHit = findHidden(place, occluder);
+            isFull = !hiddenFits;
             occluder += isHit ? 0 : 1;
         }
+        isHit = isHit && !isFull;
         if (isHit && cornerCounts[scratchA] == 0) {
             --top; // all of it is hidden
         } else if (isHit && occluderCount - occluder > AREA_SIGNED) {
@@ -384,7 +460,10 @@ AreaShare visibleShare(uint mostPieces)
             --top;
         }
     }
-    found.visible = clamp(found.visible, 0.0, found.unoccluded); // signed sums round
+    // What rounding leaves of nothing is nothing, so that an umbra is black. Corners are off by 6e-8, in narrow lobes by many times that,
+    // along an outline as long as the root of the light's share.
+    float rounding = min(1.0e-6 * sqrt(found.unoccluded), 1.0e-3 * found.unoccluded);
+    found.visible = found.visible > rounding ? min(found.visible, found.unoccluded) : 0.0;
     return found;
 }
 
@@ -395,7 +474,7 @@ AreaShare areaShare(mat3 lobe, vec3 normal, uint mostPieces)
     for (int i = 0; i < edgeCount; ++i)
         lobePlanes[i] = lobePlane(i, lobe, lobeOfPlanes);
     placeLight(lobe, unitOrZero(lobeOfPlanes * normal));
-    return isAllHidden ? AreaShare(formFactor(0, true), 0.0, 1u, 0u) : visibleShare(mostPieces);
+    return isAllHidden ? AreaShare(wholeShare(), 0.0, 1u, 0u) : visibleShare(mostPieces);
 }
 
 #endif

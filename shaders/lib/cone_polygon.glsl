@@ -62,7 +62,7 @@ bool isCut(Crossing crossing) { return crossing.hasFront && crossing.hasBehind; 
 vec3 cornerBetween(vec3 front, float frontSide, vec3 behind, float behindSide)
 {
     vec3 between = front * -behindSide + behind * frontSide;
-    return between * inversesqrt(max(dot(between, between), 1.0e-30)); // never zero for ends that differ
+    return between * inversesqrt(max(dot(between, between), 1.0e-30)); // zero for ends that are opposite
 }
 
 // The part of `from` in front of the plane goes to `front`, and where `wantsBehind` the rest to `behind`, else that is left alone: three
@@ -131,8 +131,10 @@ float formFactor(int place, bool isWanted)
             curved += curvatureOfShortArc(chord2) * crossZ;
         } else {
             float angle = angleBetween(a.xyz, b.xyz);
-            // Ends that are nearly opposite have no cross product to speak of; the plane of their edge is known.
-            curved += chord2 < 3.8 ? (angle / length(cross(a.xyz, chord)) - 1.0) * crossZ : angle * a.w - crossZ;
+            // Ends that are nearly opposite have no cross product to speak of; the plane of their edge is known. A crossing between such ends
+            // may have no direction, and then no cross product at all.
+            float sine = max(length(cross(a.xyz, chord)), 1.0e-6);
+            curved += chord2 < 3.8 ? (angle / sine - 1.0) * crossZ : angle * a.w - crossZ;
         }
         a = b;
     }

@@ -25,9 +25,11 @@ vec4 edgePlanes[SILHOUETTE_EDGES]; // unit, what the body hides in front. w: 1 w
 vec3 edgeEnds[2 * SILHOUETTE_BODY_EDGES]; // unit, of the body that was gathered last: what of the edge is in front of the cut
 int edgeCount = 0;
 int endCount = 0; // of edgeEnds
+bool silhouetteFits; // nothing was left out since it was set
 
 uint frontFaces[FACE_WORDS]; // of the body that was looked at last; those in whose plane the point lies count as front
 uint levelFaces[FACE_WORDS]; // the point lies in their plane
+bool hasFaces; // some have area
 
 float greatestHeight; // of the point over the planes of their faces, metres
 
@@ -46,19 +48,24 @@ float heightOver(BodyArrays arrays, BodyBlock body, FaceBlock face, vec3 point)
     return dot(face.normal, point - bodyVertex(arrays, body, faceCorner(arrays, face, 0u)));
 }
 
-// Finds frontFaces, levelFaces and greatestHeight; whether there is any front one. `tolerance` in metres: so near its plane a point is level with a face.
+// Finds frontFaces, levelFaces, hasFaces and greatestHeight; whether there is any front one. `tolerance` in metres: so near its plane a
+// point is level with a face. A face without area has no sides: one that counted as front would make any body open.
 bool findFronts(BodyArrays arrays, BodyBlock body, vec3 point, float tolerance)
 {
     bool hasFront = false;
+    hasFaces = false;
     greatestHeight = -1.0e30;
     for (uint word = 0u; 32u * word < body.faceCount; ++word) {
         uint fronts = 0u, levels = 0u;
         uint count = min(body.faceCount - 32u * word, 32u);
         for (uint bit = 0u; bit < count; ++bit) {
-            float height = heightOver(arrays, body, bodyFace(arrays, body, 32u * word + bit), point);
+            FaceBlock face = bodyFace(arrays, body, 32u * word + bit);
+            float height = heightOver(arrays, body, face, point);
+            bool hasArea = dot(face.normal, face.normal) > 0.0;
             greatestHeight = max(greatestHeight, height);
-            fronts |= height >= -tolerance ? 1u << bit : 0u;
-            levels |= abs(height) <= tolerance ? 1u << bit : 0u;
+            fronts |= hasArea && height >= -tolerance ? 1u << bit : 0u;
+            levels |= hasArea && abs(height) <= tolerance ? 1u << bit : 0u;
+            hasFaces = hasFaces || hasArea;
         }
         frontFaces[word] = fronts;
         levelFaces[word] = levels;
@@ -73,7 +80,9 @@ float reachOf(BodyBlock body, vec3 point) { return distance(body.centre, point) 
 void addEdge(int first, vec3 start, vec3 span, vec4 plane, vec3 startSeen, vec3 endSeen)
 {
     bool hasPlane = dot(plane.xyz, plane.xyz) > 0.0;
-    if (!hasPlane || edgeCount >= SILHOUETTE_EDGES || edgeCount - first >= SILHOUETTE_BODY_EDGES)
+    bool isFull = edgeCount >= SILHOUETTE_EDGES || edgeCount - first >= SILHOUETTE_BODY_EDGES;
+    silhouetteFits = silhouetteFits && !(hasPlane && isFull);
+    if (!hasPlane || isFull)
         return;
     edgeStarts[edgeCount] = start;
     edgeSpans[edgeCount] = span;
@@ -140,21 +149,33 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
         aHeight = bHeight;
     }
     vec3 start = isFront(index) ? entering : leaving, end = isFront(index) ? leaving : entering;
+    vec4 through = isLevel(index) ? vec4(-face.normal, 1.0) : vec4(planeThrough(start, end - start), 0.0);
     if (leaves && enters)
-        addEdge(first, start, end - start, vec4(planeThrough(start, end - start), 0.0), start, end);
+        addEdge(first, start, end - start, through, start, end);
 }
 
-// A mesh of floats is convex to rounding alone, and the plane through a short edge tells: it goes where it cuts into the silhouette.
+// A mesh of floats is convex to rounding alone. The plane through a short edge tells: it goes where it cuts into the silhouette. And a
+// face seen edge-on may count otherwise than its neighbours, front among backs or back among fronts: then edges run back over the others,
+// with planes that leave nothing of what the body hides. One such plane has the middle of the silhouette behind it: all are tried then.
 void dropFalsePlanes(int first)
 {
+    vec3 middle = vec3(0.0);
+    for (int k = 0; k < endCount; ++k)
+        middle += edgeEnds[k];
+    bool isFolded = false;
+    for (int i = first; i < edgeCount; ++i)
+        isFolded = isFolded || dot(edgePlanes[i].xyz, middle) < -1.0e-6 * float(endCount);
     int kept = first;
     for (int i = first; i < edgeCount; ++i) {
         vec3 chord = edgeEnds[2 * (i - first)] - edgeEnds[2 * (i - first) + 1];
         float chord2 = dot(chord, chord), lowest = 0.0;
-        int count = chord2 < 4.0e-4 ? endCount : 0;
+        bool isTried = (isFolded || chord2 < 4.0e-4) && edgePlanes[i].w == 0.0; // that of a face has nothing to do with the edge
+        int count = isTried ? endCount : 0;
         for (int k = 0; k < count; ++k)
             lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
-        if (lowest < -1.0e-6 && lowest * lowest > 0.25 * chord2)
+        // Rounding tilts planes of short edges, and their neighbours bound what they would. Of long ones only those that run back go.
+        float most2 = chord2 < 4.0e-4 ? min(0.25 * chord2, 1.0e-9) : 1.0e-7;
+        if (lowest < -1.0e-6 && lowest * lowest > most2)
             continue;
         edgeStarts[kept] = edgeStarts[i];
         edgeSpans[kept] = edgeSpans[i];
@@ -169,6 +190,8 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
 {
     bool isPlanar = (body.flags & kBodyPlanar) != 0u;
     bool hasFront = findFronts(arrays, body, point, 5.0e-7 * reachOf(body, point));
+    if (!hasFaces)
+        return true; // a line or a place
     if (isPlanar && (isLevel(0u) || (!hasFront && (body.flags & kBodyFrontOnly) != 0u)))
         return true; // edge-on, or a side that does not block
     if ((body.flags & kBodyHollow) != 0u && greatestHeight <= body.margin)
@@ -181,10 +204,9 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
         addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);
     if (isCut)
         for (uint i = 0u; i < body.faceCount; ++i)
-            if (isPlanar || (isFront(i) && !isLevel(i)))
+            if (isPlanar || isFront(i))
                 addCutFace(first, arrays, body, point, i, plane);
-    if (!isPlanar)
-        dropFalsePlanes(first);
+    dropFalsePlanes(first);
     return true;
 }
 

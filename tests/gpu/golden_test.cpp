@@ -50,10 +50,17 @@ TEST_F(Golden, Irradiance)
     expectAllRight(evaluateIrradiance(device(), golden("irradiance.json")));
 }
 
+TEST_F(Golden, Area)
+{
+    if (!std::filesystem::exists(golden("area.json")))
+        GTEST_SKIP() << golden("area.json") << " is not there";
+    expectAllRight(evaluateArea(device(), golden("area.json")));
+}
+
 TEST_F(Golden, AnEmptyListIsDone)
 {
     const Path file = written(R"({"cases": []})");
-    for (const Evaluation& evaluation : {evaluateCones(device(), file), evaluateIrradiance(device(), file)}) {
+    for (const Evaluation& evaluation : {evaluateCones(device(), file), evaluateIrradiance(device(), file), evaluateArea(device(), file)}) {
         EXPECT_EQ(evaluation.cases, 0u);
         EXPECT_EQ(nlohmann::json::parse(evaluation.results), nlohmann::json::array());
     }
@@ -103,6 +110,62 @@ TEST_F(Golden, MalformedCasesAreRefusedByNameOfTheFile)
             EXPECT_EQ(error.which, file.string()) << text;
         }
         EXPECT_THROW((void)evaluateIrradiance(device(), file), Error) << text;
+        EXPECT_THROW((void)evaluateArea(device(), file), Error) << text;
+    }
+}
+
+// A light of 2 m by 2 m, 1 m over the point, with a card before it: right but for what a test puts in place of a part.
+std::string areaCase(std::string_view part = "", std::string_view instead = "")
+{
+    std::string text = R"({"cases": [{"id": "one", "x": [0, 0, 0], "normal": [0, 0, 1], "tangent": [1, 0, 0],
+        "ltc_inv": [1, 0, 0, 0, 1, 0, 0, 0, 1],
+        "light": {"vertices": [[-1, -1, 1], [-1, 1, 1], [1, 1, 1], [1, -1, 1]], "faces": [[0, 1, 2, 3]], "two_sided": false},
+        "occluders": [{"kind": "card", "vertices": [[-1, -1, 0.5], [0, -1, 0.5], [0, 1, 0.5], [-1, 1, 0.5]], "faces": [[0, 1, 2, 3]]}],
+        "expected": {"unoccluded": 0.5541, "shadowed": 0.2771}, "tolerance_abs": 1e-4}]})";
+    if (!part.empty())
+        text.replace(text.find(part), part.size(), instead);
+    return text;
+}
+
+// The share of a centred square, twice as wide as it is distant, is 4 atan(1 / sqrt 2) / (pi sqrt 2) = 0.5541; the card hides one half of
+// it.
+TEST_F(Golden, AWrongShareIsOutOfTolerance)
+{
+    EXPECT_EQ(evaluateArea(device(), written(areaCase())).comparison.outOfTolerance(), 0u);
+    const Comparison wrong = evaluateArea(device(), written(areaCase("0.2771", "0.2791"))).comparison;
+    EXPECT_EQ(wrong.outOfTolerance(), 1u);
+    EXPECT_NEAR(wrong.worst(), 0.002, 1e-4);
+}
+
+TEST_F(Golden, MalformedAreaCasesAreRefusedByNameOfTheFile)
+{
+    constexpr std::pair<const char*, const char*> kFaults[] = {
+        {R"("x": [0, 0, 0])", R"("x": [0, 0])"},
+        {R"("tangent": [1, 0, 0])", R"("tangent": "x")"},
+        {R"("ltc_inv": [1, 0, 0, )", R"("ltc_inv": [)"},
+        {R"("ltc_inv": [1)", R"("ltc_inv": [1e99)"},
+        {R"("light": {"vertices")", R"("light": {"points")"},
+        {R"([-1, -1, 1])", R"([-1, -1])"},
+        {R"([-1, -1, 1])", R"([-1, null, 1])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1]])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, 4]])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, -1]])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, 2], [0, 1, 3]])"},
+        {R"("faces": [[0, 1, 2, 3]])", R"("faces": [[0, 1, 2], [0, 2, 3]])"},
+        {R"("two_sided": false)", R"("two_sided": 2)"},
+        {R"("kind": "card")", R"("kind": "cord")"},
+        {R"("kind": "card")", R"("kind": "convex")"},
+        {R"("unoccluded": 0.5541, )", ""},
+    };
+    for (const auto& [part, instead] : kFaults) {
+        const Path file = written(areaCase(part, instead));
+        try {
+            (void)evaluateArea(device(), file);
+            ADD_FAILURE() << instead << " in place of " << part;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.which, file.string()) << instead;
+        }
     }
 }
 

@@ -12,12 +12,39 @@
 #include "lib/compose.glsl"
 #include "lib/float21.glsl"
 #include "lib/tone.glsl"
+#define POLYGON_PLACES 3
+#define POLYGON_CORNERS 40
+#include "lib/cone_polygon.glsl"
 
 #ifdef ARC_SINE
 
 struct In { float sine; };
 struct Out { float angle; };
 Out evaluate(In x) { return Out(arcSine(x.sine)); }
+
+#elif defined(ANGLE_BETWEEN)
+
+struct In { vec3 a; vec3 b; };
+struct Out { float angle; };
+Out evaluate(In x) { return Out(angleBetween(x.a, x.b)); }
+
+#elif defined(CONE_POLYGON)
+
+// Corners are unit and counter-clockwise seen from outside; what is cut is in front of the plane and behind it.
+struct In { vec3 corners[32]; uint count; vec3 plane; };
+struct Out { float whole; float front; float behind; uint sides; uint frontCorners; uint behindCorners; };
+Out evaluate(In x)
+{
+    beginPolygon(0);
+    for (uint i = 0u; i < x.count; ++i) {
+        vec3 normal = cross(x.corners[i], x.corners[(i + 1u) % x.count]);
+        addCorner(0, x.corners[i], normal.z / max(length(normal), 1.0e-30));
+    }
+    Crossing crossing = crossingOf(0, x.plane);
+    uint sides = (crossing.hasFront ? 1u : 0u) | (crossing.hasBehind ? 2u : 0u);
+    cut(0, crossing, 1, 2, true, true);
+    return Out(formFactor(0, true), formFactor(1, true), formFactor(2, true), sides, uint(cornerCounts[1]), uint(cornerCounts[2]));
+}
 
 #elif defined(BOUNDS)
 

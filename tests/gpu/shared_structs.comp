@@ -343,6 +343,91 @@ void echo(IrradianceCase b)
         put(b.radianceSh[i]);
 }
 
+#elif defined(BODY_BLOCK)
+
+#define Block BodyBlock
+void echo(BodyBlock b)
+{
+    put(b.centre);
+    put(b.radius);
+    put(b.firstVertex);
+    put(b.vertexCount);
+    put(b.firstFace);
+    put(b.faceCount);
+    put(b.firstEdge);
+    put(b.edgeCount);
+    put(b.flags);
+}
+
+#elif defined(FACE_BLOCK)
+
+#define Block FaceBlock
+void echo(FaceBlock b)
+{
+    put(b.normal);
+    put(b.firstCorner);
+    put(b.cornerCount);
+}
+
+#elif defined(EDGE_BLOCK)
+
+#define Block EdgeBlock
+void echo(EdgeBlock b)
+{
+    put(b.vertices);
+    put(b.faces);
+}
+
+#elif defined(BODY_ARRAYS) || defined(EVAL_AREA)
+
+void echoArrays(BodyArrays b)
+{
+    put(b.bodies);
+    put(b.vertices);
+    put(b.faces);
+    put(b.corners);
+    put(b.edges);
+}
+#ifdef BODY_ARRAYS
+#define Block BodyArrays
+void echo(BodyArrays b) { echoArrays(b); }
+#else
+#define Block EvalArea
+void echo(EvalArea b)
+{
+    echoArrays(b.arrays);
+    put(b.cases);
+    put(b.answers);
+    put(b.caseCount);
+    put(b.mostPieces);
+}
+#endif
+
+#elif defined(AREA_CASE)
+
+#define Block AreaCase
+void echo(AreaCase b)
+{
+    put(b.position);
+    put(b.normal);
+    put(b.tangent);
+    for (int i = 0; i < 3; ++i)
+        put(b.lobe[i]);
+    put(b.light);
+    put(b.firstOccluder);
+    put(b.occluderCount);
+}
+
+#elif defined(AREA_ANSWER)
+
+#define Block AreaAnswer
+void echo(AreaAnswer b)
+{
+    put(b.unoccluded);
+    put(b.shadowed);
+    put(b.fallbacks);
+}
+
 #endif
 
 layout(buffer_reference, scalar) readonly buffer Blocks { Block block[]; };

@@ -185,5 +185,48 @@ TEST_F(SharedStructs, IrradianceCase)
                                              [](const auto& b) { return wordsOf(b.position, b.normal, b.centre, b.radius, b.radianceSh); });
 }
 
+TEST_F(SharedStructs, BodyBlock)
+{
+    expectSameLayout<shader::BodyBlock>("BODY_BLOCK", [](const auto& b) {
+        return wordsOf(b.centre, b.radius, b.firstVertex, b.vertexCount, b.firstFace, b.faceCount, b.firstEdge, b.edgeCount, b.flags);
+    });
+}
+
+TEST_F(SharedStructs, FaceBlock)
+{
+    expectSameLayout<shader::FaceBlock>("FACE_BLOCK", [](const auto& b) { return wordsOf(b.normal, b.firstCorner, b.cornerCount); });
+}
+
+TEST_F(SharedStructs, EdgeBlock)
+{
+    expectSameLayout<shader::EdgeBlock>("EDGE_BLOCK", [](const auto& b) { return wordsOf(b.vertices, b.faces); });
+}
+
+TEST_F(SharedStructs, BodyArrays)
+{
+    expectSameLayout<shader::BodyArrays>("BODY_ARRAYS",
+                                         [](const auto& b) { return wordsOf(b.bodies, b.vertices, b.faces, b.corners, b.edges); });
+}
+
+TEST_F(SharedStructs, AreaCase)
+{
+    expectSameLayout<shader::AreaCase>("AREA_CASE", [](const auto& b) {
+        return wordsOf(b.position, b.normal, b.tangent, b.lobe, b.light, b.firstOccluder, b.occluderCount);
+    });
+}
+
+TEST_F(SharedStructs, AreaAnswer)
+{
+    expectSameLayout<shader::AreaAnswer>("AREA_ANSWER", [](const auto& b) { return wordsOf(b.unoccluded, b.shadowed, b.fallbacks); });
+}
+
+TEST_F(SharedStructs, EvalArea)
+{
+    expectSameLayout<shader::EvalArea>("EVAL_AREA", [](const auto& b) {
+        return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.cases, b.answers,
+                       b.caseCount, b.mostPieces);
+    });
+}
+
 } // namespace
 } // namespace antumbra
