@@ -122,6 +122,43 @@ AreaScene squareScene()
     return scene;
 }
 
+/// A box whose face at +Z is of three triangles, and of one without area between them, along a diagonal.
+scene::ConvexBody boxWithEmptyFace()
+{
+    std::vector<vec3> vertices = boxShape().vertices; // the face is 4 5 7 6
+    vertices.emplace_back(0, 0, 1);
+    const std::vector<scene::Loop> faces{{4, 7, 8},    {4, 5, 7},    {4, 8, 6},    {8, 7, 6},   {0, 2, 3, 1},
+                                         {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    return scene::makeBody(vertices, faces);
+}
+
+// Such a face is neither seen nor not: the silhouette runs around it as well.
+TEST_F(AreaLimits, FacesWithoutAreaChangeNothing)
+{
+    RandomInputs random(14);
+    std::vector<AreaProblem> plain, empty;
+    for (uint32_t i = 0; i < 2000; ++i) {
+        AreaScene scene = openScene(random, LightKind::Box);
+        const bool isLight = i % 2 == 0;
+        const Placement place{randomTurn(random, scene.point - scene.lightCentre + random.direction()), dvec3(0.3),
+                              isLight ? scene.lightCentre : scene.onTheWay(0.6)};
+        for (const scene::ConvexBody& box : {boxShape(), boxWithEmptyFace()}) {
+            AreaScene made = scene;
+            if (isLight)
+                made.problem.light = placed(box, place);
+            else
+                made.add(placed(box, place));
+            (box.faces.size() == 6 ? plain : empty).push_back(made.problem);
+        }
+    }
+    AreaRunner runner(device());
+    const std::vector<AreaAnswer> expected = runner.run(plain), found = runner.run(empty);
+    for (uint32_t i = 0; i < plain.size(); ++i) {
+        EXPECT_NEAR(found[i].unoccluded, expected[i].unoccluded, kTolerance) << i;
+        EXPECT_NEAR(found[i].shadowed, expected[i].shadowed, kTolerance) << i;
+    }
+}
+
 TEST_F(AreaLimits, OccludersWithoutRoomAreTold)
 {
     AreaRunner runner(device());
