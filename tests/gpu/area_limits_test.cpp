@@ -34,13 +34,17 @@ std::vector<scene::ConvexBody> slabsAround(const Placement& place)
     return slabs;
 }
 
+// In narrow lobes, which enlarge rounding, sums of many pieces may leave a millionth: 1 of 3000 do.
 TEST_F(AreaLimits, ALightInAClosedBoxGivesNothingOutside)
 {
+    const auto isNarrow = [](uint32_t index) { return index % 4 == 0; };
     const uint32_t count = std::getenv("ANTUMBRA_LONG") != nullptr ? 100000 : 4000;
     RandomInputs random(12);
     std::vector<AreaProblem> problems;
     for (uint32_t i = 0; i < count; ++i) {
         AreaScene scene = openScene(random, static_cast<LightKind>(random.index(kLightKinds)));
+        if (!isNarrow(i))
+            setLobe(scene, random, 0.2);
         const double size = std::min(2 * scene.lightSize, 0.5 * glm::distance(scene.point, scene.lightCentre));
         scene.problem.light =
             lightBody(random, static_cast<LightKind>(random.index(kLightKinds)), scene.lightCentre, scene.point, 0.4 * size);
@@ -60,7 +64,7 @@ TEST_F(AreaLimits, ALightInAClosedBoxGivesNothingOutside)
     for (uint32_t first = 0; first < count; first += 1000) {
         const std::vector<AreaAnswer> found = runner.run(std::span(problems).subspan(first, 1000));
         for (uint32_t i = 0; i < found.size(); ++i) {
-            EXPECT_EQ(found[i].shadowed, 0) << first + i;
+            EXPECT_LE(found[i].shadowed, isNarrow(first + i) ? 2e-6f : 0.0f) << first + i;
             lit += found[i].unoccluded > 0.01f ? 1 : 0;
         }
     }
@@ -120,6 +124,43 @@ AreaScene squareScene()
     scene.problem.lobe = {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)};
     scene.problem.light = quad({-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1});
     return scene;
+}
+
+/// A box whose face at +Z is of three triangles, and of one without area between them, along a diagonal.
+scene::ConvexBody boxWithEmptyFace()
+{
+    std::vector<vec3> vertices = boxShape().vertices; // the face is 4 5 7 6
+    vertices.emplace_back(0, 0, 1);
+    const std::vector<scene::Loop> faces{{4, 7, 8},    {4, 5, 7},    {4, 8, 6},    {8, 7, 6},   {0, 2, 3, 1},
+                                         {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    return scene::makeBody(vertices, faces);
+}
+
+// Such a face is neither seen nor not: the silhouette runs around it as well.
+TEST_F(AreaLimits, FacesWithoutAreaChangeNothing)
+{
+    RandomInputs random(14);
+    std::vector<AreaProblem> plain, empty;
+    for (uint32_t i = 0; i < 2000; ++i) {
+        AreaScene scene = openScene(random, LightKind::Box);
+        const bool isLight = i % 2 == 0;
+        const Placement place{randomTurn(random, scene.point - scene.lightCentre + random.direction()), dvec3(0.3),
+                              isLight ? scene.lightCentre : scene.onTheWay(0.6)};
+        for (const scene::ConvexBody& box : {boxShape(), boxWithEmptyFace()}) {
+            AreaScene made = scene;
+            if (isLight)
+                made.problem.light = placed(box, place);
+            else
+                made.add(placed(box, place));
+            (box.faces.size() == 6 ? plain : empty).push_back(made.problem);
+        }
+    }
+    AreaRunner runner(device());
+    const std::vector<AreaAnswer> expected = runner.run(plain), found = runner.run(empty);
+    for (uint32_t i = 0; i < plain.size(); ++i) {
+        EXPECT_NEAR(found[i].unoccluded, expected[i].unoccluded, kTolerance) << i;
+        EXPECT_NEAR(found[i].shadowed, expected[i].shadowed, kTolerance) << i;
+    }
 }
 
 TEST_F(AreaLimits, OccludersWithoutRoomAreTold)
