@@ -22,7 +22,11 @@
 #define AREA_OCCLUDERS 8
 #define AREA_SIGNED 8
 #endif
+#ifdef GLOSSY
+#define TWO_LOBES
+#endif
 #include "lib/area.glsl"
+#include "lib/blocked.glsl"
 #include "lib/surface.glsl"
 #include "lib/hemisphere.glsl"
 #ifdef GLOSSY
@@ -65,6 +69,8 @@ struct Received
 };
 
 const uint kMostMattering = 24u; // occluders of a pixel and light whose spheres meet the light's cone
+uint matters[kMostMattering];
+uint matterCount = 0u;
 uint pieceCount = 0u;
 bool isFallback = false;
 
@@ -149,7 +155,6 @@ void addOccluders(AreaBlock area, uint index, BodyBlock body, Surface s, ivec2 p
     bool isListed = count <= kAreaTileOccluders;
     count = isListed ? count : area.occluderCount;
     // First whose spheres may matter, then those themselves: the pixels of a group look at as many as one of them must.
-    uint matters[kMostMattering];
     uint mattering = 0u;
     for (uint i = 0u; i < count; ++i) {
         uint occluder = isListed ? Tiles(pc.tiles).block[at].occluders[i] : area.firstOccluder + i;
@@ -160,8 +165,26 @@ void addOccluders(AreaBlock area, uint index, BodyBlock body, Surface s, ivec2 p
         mattering += may ? 1u : 0u;
     }
     isOccluderLost = mattering > kMostMattering;
+    matterCount = min(mattering, kMostMattering);
     for (uint i = 0u; i < min(mattering, kMostMattering) && !isAllHidden; ++i)
         addOccluder(area.arrays, body, Bodies(area.arrays.bodies).body[matters[i]], s.position);
+}
+
+// Share of points on the light's outline that are seen past all that matters: where there is more of it than the closed form has room for.
+float sampledPast(BodyArrays arrays, vec3 point, bool isWanted)
+{
+    uint samples = isWanted ? 16u : 0u;
+    float seen = 0.0;
+    for (uint i = 0u; i < samples; ++i) {
+        uint triangle = 1u + i % uint(outlineCount - 2);
+        float u = sqrt((float(i) + 0.5) / float(samples)), v = radicalInverse2(i);
+        vec3 to = outline[0] * (1.0 - u) + outline[triangle] * (u * (1.0 - v)) + outline[triangle + 1u] * (u * v);
+        bool isPast = true;
+        for (uint k = 0u; k < matterCount && isPast; ++k)
+            isPast = !blocksWay(arrays, Bodies(arrays.bodies).body[matters[k]], point, to);
+        seen += isPast ? 1.0 / float(samples) : 0.0;
+    }
+    return seen;
 }
 
 Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
@@ -172,16 +195,23 @@ Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, i
 #if SHADOW == 1
     addOccluders(area, index, body, s, pixel);
 #endif
+#ifdef GLOSSY
+    LtcLobe lobe = ltcLobe(pc.ltcMatrix, pc.ltcAmplitude, s.roughness, clamp(dot(s.normal, s.toEye), 0.0, 1.0));
+    secondLobe = lobe.toCosine;
+#endif
     AreaShare diffuse = areaShare(s.tangentSpace, s.normal, pc.mostPieces);
+#if SHADOW == 1
+    float past = sampledPast(area.arrays, s.position, isOccluderLost && !isAllHidden);
+    diffuse.visible = isOccluderLost && !isAllHidden ? min(diffuse.visible, past * diffuse.unoccluded) : diffuse.visible;
+#ifdef GLOSSY
+    secondShare.visible = isOccluderLost && !isAllHidden ? min(secondShare.visible, past * secondShare.unoccluded) : secondShare.visible;
+#endif
+#endif
     pieceCount += diffuse.pieces;
     isFallback = isFallback || diffuse.fallbacks > 0u || isOccluderLost;
     Received sum = Received(light.radiance * (kPi * diffuse.visible), vec3(0.0));
 #ifdef GLOSSY
-    LtcLobe lobe = ltcLobe(pc.ltcMatrix, pc.ltcAmplitude, s.roughness, clamp(dot(s.normal, s.toEye), 0.0, 1.0));
-    AreaShare mirrored = areaShare(lobe.toCosine * s.tangentSpace, s.normal, pc.mostPieces);
-    pieceCount += mirrored.pieces;
-    isFallback = isFallback || mirrored.fallbacks > 0u;
-    sum.specular = light.radiance * (s.f0 * lobe.amplitude.x + (1.0 - s.f0) * lobe.amplitude.y) * mirrored.visible;
+    sum.specular = light.radiance * (s.f0 * lobe.amplitude.x + (1.0 - s.f0) * lobe.amplitude.y) * secondShare.visible;
 #endif
     return sum;
 }

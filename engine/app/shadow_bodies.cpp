@@ -114,8 +114,9 @@ std::vector<BodyPart> hullParts(const scene::Model& model, uint32_t greatestVert
     const std::map<uint32_t, std::vector<uint32_t>> vertices = scene::verticesByJoint(model.mesh);
     std::vector<BodyPart> parts;
     for (bake::Hull& hull : bake::hullsOfModel(model, greatestVertices)) {
+        const bool isSolid = !hull.body.isPlanar; // a flat one has no inside
         const float margin = marginOf(hull.body, model.mesh, vertices.at(hull.joint));
-        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = true, .margin = margin});
+        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = isSolid, .margin = margin});
     }
     // The largest first: what it hides of a light need not be asked about the others.
     std::ranges::sort(parts, std::greater{}, [](const BodyPart& part) { return surfaceArea(part.body); });
@@ -166,9 +167,9 @@ void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject
 {
     std::vector<std::pair<ecs::Entity, scene::OccluderBodies>> made;
     for (auto [entity, occluder, drawable, dynamic] :
-         ecs::Each<ecs::Entity, const scene::Occluder, const scene::Drawable, ecs::Maybe<const scene::DynamicSkinned>>(world)) {
-        const scene::LightBodies range =
-            addParts(assets, partsOf(assets.models[drawable.model], occluder, dynamic != nullptr, subject));
+         ecs::Each<ecs::Entity, const scene::Occluder, const scene::Drawable, ecs::Maybe<const scene::DynamicSkinned>>(world))
+    {
+        const scene::LightBodies range = addParts(assets, partsOf(assets.models[drawable.model], occluder, dynamic != nullptr, subject));
         made.emplace_back(entity, scene::OccluderBodies{range.first, range.count});
     }
     for (const auto& [entity, bodies] : made)

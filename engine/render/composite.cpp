@@ -1,5 +1,8 @@
 #include "render/composite.h"
 
+#include <algorithm>
+#include <functional>
+
 namespace antumbra::render {
 
 namespace {
@@ -17,8 +20,7 @@ static_assert(static_cast<uint32_t>(ViewMode::Difference) == shader::kViewDiffer
               static_cast<uint32_t>(ViewMode::Cones) == shader::kViewCones);
 
 /// What is drawn into the composed picture.
-gpu::Pipeline drawnOver(gpu::Device& device, std::string_view vertexShader, std::string_view fragmentShader, bool keepsColor,
-                        bool writesDepth)
+gpu::Pipeline drawnOver(gpu::Device& device, std::string_view vertexShader, std::string_view fragmentShader, bool keepsColor)
 {
     constexpr std::array formats{kPictureFormat, kKeptFormat};
     constexpr gpu::ShaderDefine define{"KEEPS_COLOR"};
@@ -27,7 +29,7 @@ gpu::Pipeline drawnOver(gpu::Device& device, std::string_view vertexShader, std:
                                    .defines = std::span(&define, keepsColor ? 1 : 0),
                                    .colorFormats = std::span(formats).first(keepsColor ? 2 : 1),
                                    .depthFormat = gpu::Format::Depth32Float,
-                                   .writesDepth = writesDepth});
+                                   .writesDepth = false});
 }
 
 } // namespace
@@ -54,7 +56,7 @@ const gpu::Pipeline& CompositeSystem::sky(bool keepsColor)
 {
     gpu::Pipeline& pipeline = skies_[keepsColor ? 1 : 0];
     if (!pipeline)
-        pipeline = drawnOver(*device_, "sky.vert", "sky.frag", keepsColor, false);
+        pipeline = drawnOver(*device_, "sky.vert", "sky.frag", keepsColor);
     return pipeline;
 }
 
@@ -62,7 +64,7 @@ const gpu::Pipeline& CompositeSystem::lightBody(bool keepsColor)
 {
     gpu::Pipeline& pipeline = lightBodies_[keepsColor ? 1 : 0];
     if (!pipeline)
-        pipeline = drawnOver(*device_, "light_body.vert", "light_body.frag", keepsColor, true);
+        pipeline = drawnOver(*device_, "light_body.vert", "light_body.frag", keepsColor);
     return pipeline;
 }
 
@@ -116,25 +118,36 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .splitX = view.splitColumn},
                           recorder.extent(composed.picture) / scale + 2u);
     });
-    const ImageRef depth = declareLightBodies(graph, view, frame, scene, g.depth, composed);
-    declareSky(graph, view, frame, depth, composed);
+    declareSky(graph, view, frame, g.depth, composed);
+    declareLightBodies(graph, view, frame, scene, g.depth, composed);
     return composed;
 }
 
-graph::ImageRef CompositeSystem::declareLightBodies(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                                    ImageRef depth, Composed& composed)
+// The G-buffer's depth stays what its surfaces are, so lights hide each other by their order.
+void CompositeSystem::listLightBodies(const FrameView& view)
+{
+    farthestFirst_.clear();
+    for (uint32_t i = 0; i < view.areaLights.size(); ++i)
+        farthestFirst_.push_back({glm::distance(vec3(view.areaLights[i].world[3]), view.camera.eye), i});
+    std::ranges::sort(farthestFirst_, std::greater{}, &LightBody::distance);
+}
+
+void CompositeSystem::declareLightBodies(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                         ImageRef depth, Composed& composed)
 {
     if (view.areaLights.empty()) {
         graph.skip("light bodies", "no AreaLight in the scene");
-        return depth;
+        return;
     }
+    listLightBodies(view);
     graph::Pass pass = graph.add("light bodies");
-    depth = pass.write(depth, Use::DepthAttachment);
+    pass.read(depth, Use::DepthRead);
     composed.picture = pass.write(composed.picture, Use::ColorAttachment);
     if (composed.color)
         composed.color = pass.write(composed.color, Use::ColorAttachment);
-    pass.record([&drawn = lightBody(static_cast<bool>(composed.color)), &view, &scene, frame](graph::Recorder& recorder) {
-        for (const AreaLightDraw& light : view.areaLights) {
+    pass.record([this, &drawn = lightBody(static_cast<bool>(composed.color)), &view, &scene, frame](graph::Recorder& recorder) {
+        for (const LightBody& body : farthestFirst_) {
+            const AreaLightDraw& light = view.areaLights[body.light];
             const DeviceModel& model = scene.model(light.model);
             const DeviceRest& rest = scene.rest(light.model);
             const mat4 rows = glm::transpose(light.world);
@@ -149,7 +162,6 @@ graph::ImageRef CompositeSystem::declareLightBodies(graph::FrameGraph& graph, co
                                  model.indices, 3 * model.triangleCount, graph::Faces::Both);
         }
     });
-    return depth;
 }
 
 void CompositeSystem::declareSky(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, ImageRef depth, Composed& composed)

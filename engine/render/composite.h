@@ -47,12 +47,20 @@ private:
     const gpu::Pipeline& sky(bool keepsColor);
     const gpu::Pipeline& lightBody(bool keepsColor);
     void declareSky(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, graph::ImageRef depth, Composed& composed);
-    graph::ImageRef declareLightBodies(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                       graph::ImageRef depth, Composed& composed);
+    void listLightBodies(const FrameView& view);
+    void declareLightBodies(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, graph::ImageRef depth,
+                            Composed& composed);
+
+    struct LightBody
+    {
+        float distance; // metres, of its middle from the eye
+        uint32_t light; // into FrameView::areaLights
+    };
 
     gpu::Device* device_;
     std::array<gpu::Pipeline, 32> compositions_; // each made when first asked for
     std::array<gpu::Pipeline, 2> skies_, lightBodies_;
+    std::vector<LightBody> farthestFirst_; // of the frame that is declared
 };
 
 } // namespace antumbra::render

@@ -48,9 +48,8 @@ bool isLightItself(const scene::AreaLight* light) { return light != nullptr && l
 
 void extractStatics(const ecs::World& world, const scene::Assets& assets, FrameView& view)
 {
-    for (auto [drawable, matrix, baked, light] :
-         Each<const scene::Drawable, const scene::WorldMatrix, ecs::Maybe<const scene::StaticPRT>, ecs::Maybe<const scene::AreaLight>,
-              ecs::Without<DynamicSkinned>>(world))
+    for (auto [drawable, matrix, baked, light] : Each<const scene::Drawable, const scene::WorldMatrix, ecs::Maybe<const scene::StaticPRT>,
+                                                      ecs::Maybe<const scene::AreaLight>, ecs::Without<DynamicSkinned>>(world))
         if (!isEmpty(assets, drawable) && !isLightItself(light))
             view.statics.push_back({drawable.model, matrix.now, baked != nullptr});
 }
@@ -91,7 +90,8 @@ void extractAreaLights(const ecs::World& world, FrameView& view)
 uint32_t lightOf(const ecs::World& world, ecs::Entity entity)
 {
     uint32_t index = 0;
-    for (auto [each] : Each<ecs::Entity, ecs::With<scene::AreaLight>, ecs::With<scene::LightBodies>, ecs::With<scene::WorldMatrix>>(world)) {
+    for (auto [each] : Each<ecs::Entity, ecs::With<scene::AreaLight>, ecs::With<scene::LightBodies>, ecs::With<scene::WorldMatrix>>(world))
+    {
         if (each == entity)
             return index;
         ++index;
@@ -104,9 +104,9 @@ void extractOccluders(const ecs::World& world, const scene::Assets& assets, Fram
     if (view.areaLights.empty())
         return;
     const auto& poses = world.resource<PoseStore>();
-    for (auto [entity, bodies, matrix, pose, light] :
-         Each<ecs::Entity, const scene::OccluderBodies, const scene::WorldMatrix, ecs::Maybe<const Pose>, ecs::Maybe<const scene::AreaLight>>(
-             world)) {
+    for (auto [entity, bodies, matrix, pose, light] : Each<ecs::Entity, const scene::OccluderBodies, const scene::WorldMatrix,
+                                                           ecs::Maybe<const Pose>, ecs::Maybe<const scene::AreaLight>>(world))
+    {
         const uint32_t own = light != nullptr ? lightOf(world, entity) : scene::kNoIndex;
         for (uint32_t part = bodies.first; part < bodies.first + bodies.count; ++part) {
             const uint32_t joint = assets.bodyParts[part].joint;

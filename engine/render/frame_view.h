@@ -64,8 +64,8 @@ struct AreaLightDraw
 /// A body that blocks area lights.
 struct OccluderDraw
 {
-    uint32_t part = 0; // into scene::Assets::bodyParts
-    mat4 world{1};     // of the part: posed where a joint moves it
+    uint32_t part = 0;                // into scene::Assets::bodyParts
+    mat4 world{1};                    // of the part: posed where a joint moves it
     uint32_t light = scene::kNoIndex; // into FrameView::areaLights: the one that it is the body of, which it does not hide
 };
 
@@ -98,8 +98,8 @@ struct FrameView
     /// Whether a light is shadowed by what accumulates to the truth.
     [[nodiscard]] bool hasReferenceLights() const
     {
-        return std::ranges::any_of(
-            areaLights, [this](const AreaLightDraw& light) { return shadowOf(light) == scene::LightShadow::Reference; });
+        return std::ranges::any_of(areaLights,
+                                   [this](const AreaLightDraw& light) { return shadowOf(light) == scene::LightShadow::Reference; });
     }
     /// Whether a pass traces rays through the scene.
     [[nodiscard]] bool tracesRays() const { return (hasEnvironment() && !characters.empty()) || tracesAreaLights(); }

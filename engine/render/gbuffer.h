@@ -59,7 +59,7 @@ private:
     gpu::Device* device_;
     std::array<std::array<MaterialPipelines, 2>, 4> pipelines_; // by FirstTerm and whether materials are kept, made when first asked for
     bool keepsMaterial_ = false;                                // of the frame that is declared
-    std::vector<Draw> draws_;                    // of the frame that is declared, nearest first
+    std::vector<Draw> draws_;                                   // of the frame that is declared, nearest first
 };
 
 } // namespace antumbra::render

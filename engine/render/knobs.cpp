@@ -40,6 +40,10 @@ constexpr KnobChoice kLightShadows[] = {
     choice("traced", scene::LightShadow::Traced),
     choice("reference", scene::LightShadow::Reference),
 };
+constexpr KnobChoice kGalleryLights[] = {choice("plane", GalleryLight::Plane), choice("cylinder", GalleryLight::Cylinder),
+                                         choice("cone", GalleryLight::Cone)};
+constexpr KnobChoice kGalleryOccluders[] = {choice("cube", GalleryOccluder::Cube), choice("icosphere", GalleryOccluder::Icosphere),
+                                            choice("ellipsoid", GalleryOccluder::Ellipsoid)};
 constexpr KnobChoice kFilters[] = {{"0", 0}, {"3", 3}, {"5", 5}, {"7", 7}, {"9", 9}};
 constexpr KnobChoice kViews[] = {
     choice("final", ViewMode::Final),           choice("unshadowed", ViewMode::Unshadowed), choice("occluded", ViewMode::Occluded),
@@ -85,6 +89,13 @@ constexpr KnobDescription knob(std::string_view key, KnobRange range, std::strin
     return knob<Members...>(key, {}, range, doc);
 }
 
+// What a scene asks for when it is loaded.
+constexpr KnobDescription atLoading(KnobDescription knob)
+{
+    knob.isLive = false;
+    return knob;
+}
+
 // A setting of the baker.
 template <size_t Index>
 constexpr KnobDescription bakeKnob()
@@ -103,10 +114,12 @@ constexpr KnobDescription bakeKnob()
 
 using Occlusion = OcclusionKnobs;
 using Area = AreaKnobs;
+using Gallery = GalleryKnobs;
 using Reference = ReferenceKnobs;
 constexpr auto kOcclusion = &Knobs::occlusion;
 constexpr auto kPrt = &Knobs::prt;
 constexpr auto kArea = &Knobs::area;
+constexpr auto kGallery = &Knobs::gallery;
 
 constexpr KnobDescription kTable[] = {
     knob<kOcclusion, &Occlusion::backend>("occlusion.backend", kBackends,
@@ -133,6 +146,10 @@ constexpr KnobDescription kTable[] = {
     knob<kArea, &Area::rays>("area.rays", {1, 4096, 1}, "shadow rays a pixel and light, where it is traced"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
     knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),
+    atLoading(knob<kGallery, &Gallery::light>("gallery.light", kGalleryLights, "what shines in the gallery")),
+    atLoading(knob<kGallery, &Gallery::occluder>("gallery.occluder", kGalleryOccluders, "what stands in the light of the gallery")),
+    atLoading(knob<kGallery, &Gallery::lights>("gallery.lights", {1, 3, 1}, "lights in the gallery")),
+    atLoading(knob<kGallery, &Gallery::occluders>("gallery.occluders", {0, 3, 1}, "occluders in the gallery")),
     knob<&Knobs::view>("view", kViews, "what the screen shows"),
 };
 

@@ -57,6 +57,17 @@ struct CrowdKnobs
     uint32_t count = 10;
 };
 
+enum class GalleryLight { Plane, Cylinder, Cone };
+enum class GalleryOccluder { Cube, Icosphere, Ellipsoid };
+
+struct GalleryKnobs
+{
+    GalleryLight light = GalleryLight::Plane;
+    GalleryOccluder occluder = GalleryOccluder::Cube;
+    uint32_t lights = 1;
+    uint32_t occluders = 1;
+};
+
 /// Units and ranges stand in the table.
 struct Knobs
 {
@@ -65,6 +76,7 @@ struct Knobs
     AreaKnobs area;
     ReferenceKnobs reference;
     CrowdKnobs crowd;
+    GalleryKnobs gallery;
     ViewMode view = ViewMode::Final;
 };
 

@@ -110,8 +110,8 @@ std::optional<Aov> aovOf(std::string_view name)
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent)
     : device_(&device), scene_(device, assets), blocks_(device, assets), prt_(device), gbuffer_(device), posing_(device),
-      occlusion_(device), areaLights_(device, assets), reference_(device), composite_(device), overlay_(device), counters_(device), executor_(device),
-      picture_(makePicture(device, extent))
+      occlusion_(device), areaLights_(device, assets), reference_(device), composite_(device), overlay_(device), counters_(device),
+      executor_(device), picture_(makePicture(device, extent))
 {
 }
 

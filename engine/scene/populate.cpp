@@ -5,6 +5,7 @@
 #include "scene/animator.h"
 #include "scene/gltf.h"
 #include "scene/hierarchy.h"
+#include "scene/solid_meshes.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,9 @@ Model loadModel(const SceneMesh& mesh)
     case MeshKind::Plane: return shapeModel("plane", makePlane());
     case MeshKind::Cube: return shapeModel("cube", makeCube());
     case MeshKind::Sphere: return shapeModel("sphere", makeSphere());
+    case MeshKind::Disk: return shapeModel("disk", makeDisk());
+    case MeshKind::Icosphere: return shapeModel("icosphere", makeIcosphere());
+    case MeshKind::Frustum: return shapeModel("frustum", makeFrustum());
     case MeshKind::File: return loadGltf(mesh.file);
     case MeshKind::None: break;
     }

@@ -41,15 +41,15 @@ const std::string* findSetting(std::string_view key, const Settings& settings, c
 int32_t readCount(const JsonObject& part, const Settings& settings, const Settings& overrides)
 {
     if (part.isNumber("count"))
-        return part.integer("count", 1, {1, kGreatestRepeat});
+        return part.integer("count", 1, {0, kGreatestRepeat});
     const std::string key = part.text("count", "");
     const std::string* value = findSetting(key, settings, overrides);
     if (value == nullptr)
         part.refuse("count", fmt::format("expected a number, or a setting of the scene; \"{}\" is none", key));
     int32_t count = 0;
     const auto [end, failure] = std::from_chars(value->data(), value->data() + value->size(), count);
-    if (failure != std::errc() || end != value->data() + value->size() || count < 1 || count > kGreatestRepeat)
-        part.refuse("count", fmt::format("{}={}: expected an integer from 1 to {}", key, *value, kGreatestRepeat));
+    if (failure != std::errc() || end != value->data() + value->size() || count < 0 || count > kGreatestRepeat)
+        part.refuse("count", fmt::format("{}={}: expected an integer from 0 to {}", key, *value, kGreatestRepeat));
     return count;
 }
 
@@ -65,6 +65,19 @@ Repeat readRepeat(const JsonObject& part, const Settings& settings, const Settin
     repeat.offsetSeconds = part.number("offset", 0, {0, 1000});
     repeat.clips = part.texts("clips");
     return repeat;
+}
+
+/// Whether every setting that the entity depends on has the value it asks for.
+bool isAskedFor(const JsonObject& condition, const Settings& settings, const Settings& overrides)
+{
+    bool isAsked = true;
+    for (const auto& [key, wanted] : condition.pairs()) {
+        const std::string* value = findSetting(key, settings, overrides);
+        if (value == nullptr)
+            condition.refuse(key, "is no setting of the scene");
+        isAsked = isAsked && *value == wanted;
+    }
+    return isAsked;
 }
 
 SceneEntity copyOf(const SceneEntity& entity, const Repeat& repeat, int32_t index)
@@ -94,7 +107,12 @@ SceneMesh readMesh(const JsonObject& part, const Path& folder)
     const std::string value = part.text("mesh", "");
     if (const Path file = value; file.extension() == ".glb" || file.extension() == ".gltf")
         return {MeshKind::File, folder / file};
-    constexpr Words<MeshKind, 3> kMeshes{{{"plane", MeshKind::Plane}, {"cube", MeshKind::Cube}, {"sphere", MeshKind::Sphere}}};
+    constexpr Words<MeshKind, 6> kMeshes{{{"plane", MeshKind::Plane},
+                                          {"cube", MeshKind::Cube},
+                                          {"sphere", MeshKind::Sphere},
+                                          {"disk", MeshKind::Disk},
+                                          {"icosphere", MeshKind::Icosphere},
+                                          {"frustum", MeshKind::Frustum}}};
     return {part.choice<MeshKind>("mesh", std::nullopt, kMeshes), {}};
 }
 
@@ -107,8 +125,8 @@ bool readMarker(const JsonObject& part, std::string_view key)
 
 SceneEntity readEntity(const JsonObject& part, const Path& folder, std::vector<std::string>& fields)
 {
-    part.allowOnly({"name", "parent", "transform", "mesh", "material", "animation", "repeat", "StaticPRT", "DynamicSkinned", "AreaLight",
-                    "Occluder", "SDFPrimitive"});
+    part.allowOnly({"name", "parent", "transform", "mesh", "material", "animation", "repeat", "only_if", "StaticPRT", "DynamicSkinned",
+                    "AreaLight", "Occluder", "SDFPrimitive"});
     SceneEntity entity;
     entity.name = part.text("name", "");
     entity.transform = readTransform(part.object("transform"));
@@ -206,6 +224,8 @@ SceneFile loadScene(const Path& file, const Settings& overrides)
     std::vector<std::string> parentNames;
     for (const JsonObject& part : root.objects("entities")) {
         const SceneEntity entity = readEntity(part, folder, scene.fields);
+        if (!isAskedFor(part.object("only_if"), scene.settings, overrides))
+            continue;
         const std::string parentName = part.text("parent", "");
         const Repeat repeat = part.has("repeat") ? readRepeat(part.object("repeat"), scene.settings, overrides) : Repeat{};
         for (int32_t i = 0; i < repeat.count; ++i) {

@@ -14,7 +14,7 @@ namespace antumbra::scene {
 /// Keys and values as text; a later one wins.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-enum class MeshKind { None, Plane, Cube, Sphere, File };
+enum class MeshKind { None, Plane, Cube, Sphere, Disk, Icosphere, Frustum, File };
 
 struct SceneMesh
 {
@@ -73,7 +73,8 @@ struct SceneFile
 /// The most copies that one "repeat" makes.
 inline constexpr int32_t kGreatestRepeat = 200;
 
-/// Paths in the file are relative to it, those returned are not. `overrides` come after the scene's settings and can size a crowd:
+/// Paths in the file are relative to it, those returned are not. `overrides` come after the scene's settings and can size a crowd and
+/// choose what there is: "only_if":{"KEY OF A SETTING":"VALUE"} on an entity leaves it out where the setting has another value, and
 /// "repeat":{"count":N or the key of a setting, "grid":[dx,dz], "columns":N, "turn_deg":D, "offset":S, "clips":[...]} on an entity writes
 /// it out `count` times as NAME.0, NAME.1..., on a grid about its position that is square unless `columns` says otherwise, each copy
 /// turned by D degrees about +Y and S seconds further into its clip than the one before, the clips taken in turn.

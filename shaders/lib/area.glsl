@@ -5,7 +5,11 @@
 #ifndef LIB_AREA_GLSL
 #define LIB_AREA_GLSL
 
-const int kFrames = POLYGON_PLACES - 2; // of the search below; the other two places are scratch
+#ifdef TWO_LOBES
+const int kFrames = POLYGON_PLACES - 4; // of the search below; the other places are scratch
+#else
+const int kFrames = POLYGON_PLACES - 2;
+#endif
 #include "lib/cone_polygon.glsl"
 #include "lib/silhouette.glsl"
 
@@ -20,7 +24,7 @@ struct AreaShare
 
 // The light's outline, counter-clockwise, relative to the point, and the planes through its edges: unit, the light in front.
 vec3 outline[OUTLINE_CORNERS];
-vec3 outlinePlanes[OUTLINE_CORNERS];
+vec3 outlinePlanes[OUTLINE_CORNERS]; // zero where the edge is shorter than 0.02 rad: its plane would be rounding
 int outlineCount = 0;
 bool isLightFlipped; // planar, and seen from behind
 bool isLightLost; // it has more corners than fit: some are left out, or all
@@ -164,16 +168,20 @@ bool beginLight(BodyArrays arrays, BodyBlock light, vec3 point)
         findPlanarOutline(arrays, light, point);
     else
         findSolidOutline(arrays, light, point);
-    for (int i = 0; i < outlineCount; ++i)
-        outlinePlanes[i] = planeThrough(outline[i], outline[i + 1 < outlineCount ? i + 1 : 0] - outline[i]);
+    for (int i = 0; i < outlineCount; ++i) {
+        vec3 start = unitOrZero(outline[i]), chord = unitOrZero(outline[i + 1 < outlineCount ? i + 1 : 0]) - start;
+        outlinePlanes[i] = dot(chord, chord) > 4.0e-4 ? planeThrough(start, chord) : vec3(0.0);
+    }
     return outlineCount >= 3;
 }
+
+const float kPartingPlane = 1.0e-5; // past what rounding tilts the plane of such an edge by
 
 // Whether the body's sphere meets the cone of the light, as far as its planes tell. After beginLight.
 bool mayHide(BodyBlock body, vec3 point)
 {
     vec3 to = body.centre - point;
-    float least = -1.0001 * body.radius - 1.0e-6 * length(to); // past every rounding
+    float least = -1.0001 * body.radius - kPartingPlane * length(to);
     bool may = true;
     for (int i = 0; i < outlineCount; ++i)
         may = may && dot(outlinePlanes[i], to) >= least;
@@ -197,9 +205,9 @@ bool outlineMissesSilhouette()
 {
     bool misses = false;
     for (int i = 0; i < outlineCount && !misses; ++i) {
-        bool isBehind = dot(outlinePlanes[i], outlinePlanes[i]) > 0.0; // repeated corners have no plane between them
+        bool isBehind = dot(outlinePlanes[i], outlinePlanes[i]) > 0.0;
         for (int k = 0; k < endCount && isBehind; ++k)
-            isBehind = dot(outlinePlanes[i], edgeEnds[k]) <= kOnPlane;
+            isBehind = dot(outlinePlanes[i], edgeEnds[k]) <= -kPartingPlane;
         misses = isBehind;
     }
     return misses;
@@ -397,13 +405,49 @@ int splitFurther(int top)
     return cornerCounts[outside] > 0 ? top + 1 : top;
 }
 
+#ifdef TWO_LOBES
+
+// Variant: a second lobe sees the light past the same occluders. Its transform takes directions from the first one's space; what is left
+// of the light is found once, and integrated for both.
+mat3 secondLobe;
+AreaShare secondShare;
+
+float secondFormFactor(int place, bool isWanted)
+{
+    const int kUncut = POLYGON_PLACES - 2, kAbove = POLYGON_PLACES - 1;
+    int count = isWanted ? cornerCounts[place] : 0, base = place * POLYGON_CORNERS;
+    beginPolygon(kUncut);
+    vec3 corner = secondLobe * polygonCorners[base].xyz;
+    for (int i = 0; i < count; ++i) {
+        vec3 next = secondLobe * polygonCorners[base + (i + 1 < count ? i + 1 : 0)].xyz;
+        addCorner(kUncut, unitOrZero(corner), planeThrough(corner, next - corner).z);
+        corner = next;
+    }
+    Crossing horizon = crossingOf(kUncut, vec3(0.0, 0.0, 1.0));
+    cut(kUncut, horizon, kAbove, kUncut, false, isCut(horizon));
+    return formFactor(isCut(horizon) ? kAbove : kUncut, isWanted && horizon.hasFront);
+}
+
+#endif
+
 // Of the polygon at place 0. One that the point nearly lies in rounds to anything.
 float wholeShare() { return clamp(formFactor(0, true), 0.0, 1.0); }
+
+// What rounding leaves of nothing is nothing, so that an umbra is black. Corners are off by 6e-8, in narrow lobes by many times that, along
+// an outline as long as the root of the light's share.
+float withoutRounding(float visible, float unoccluded)
+{
+    float rounding = min(1.0e-6 * sqrt(unoccluded), 1.0e-3 * unoccluded);
+    return visible > rounding ? min(visible, unoccluded) : 0.0;
+}
 
 // The form factor of what the occluders leave of the polygon at place 0. `mostPieces`: the rest is left to samples.
 AreaShare visibleShare(uint mostPieces)
 {
     AreaShare found = AreaShare(wholeShare(), 0.0, 1u, 0u);
+#ifdef TWO_LOBES
+    secondShare = AreaShare(clamp(secondFormFactor(0, true), 0.0, 1.0), 0.0, 0u, 0u);
+#endif
     bool isSplit = false; // the light itself
     for (int i = 0; i < kFrames; ++i)
         framePlace[i] = i;
@@ -455,15 +499,19 @@ AreaShare visibleShare(uint mostPieces)
             bool isKnown = top == 0 && !isSplit;
             float whole = isKnown ? found.unoccluded : formFactor(place, !isKnown);
             found.visible += frameSign[top] * share * (whole - formFactor(scratchA, isHit));
+#ifdef TWO_LOBES
+            whole = isKnown ? secondShare.unoccluded : secondFormFactor(place, !isKnown);
+            secondShare.visible += frameSign[top] * share * (whole - secondFormFactor(scratchA, isHit));
+#endif
             found.fallbacks += isFull ? 1u : 0u;
             found.pieces += isHit ? 2u : 1u;
             --top;
         }
     }
-    // What rounding leaves of nothing is nothing, so that an umbra is black. Corners are off by 6e-8, in narrow lobes by many times that,
-    // along an outline as long as the root of the light's share.
-    float rounding = min(1.0e-6 * sqrt(found.unoccluded), 1.0e-3 * found.unoccluded);
-    found.visible = found.visible > rounding ? min(found.visible, found.unoccluded) : 0.0;
+    found.visible = withoutRounding(found.visible, found.unoccluded);
+#ifdef TWO_LOBES
+    secondShare.visible = withoutRounding(secondShare.visible, secondShare.unoccluded);
+#endif
     return found;
 }
 
@@ -474,6 +522,9 @@ AreaShare areaShare(mat3 lobe, vec3 normal, uint mostPieces)
     for (int i = 0; i < edgeCount; ++i)
         lobePlanes[i] = lobePlane(i, lobe, lobeOfPlanes);
     placeLight(lobe, unitOrZero(lobeOfPlanes * normal));
+#ifdef TWO_LOBES
+    secondShare = AreaShare(0.0, 0.0, 0u, 0u);
+#endif
     return isAllHidden ? AreaShare(wholeShare(), 0.0, 1u, 0u) : visibleShare(mostPieces);
 }
 

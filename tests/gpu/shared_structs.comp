@@ -26,6 +26,7 @@ layout(local_size_x = 1) in;
 uint next = 0u;
 
 void put(uint value) { Words(pc.outputs).word[next++] = value; }
+void put(int value) { put(uint(value)); }
 void put(float value) { put(floatBitsToUint(value)); }
 void put(uint64_t value)
 {
@@ -282,6 +283,7 @@ void echo(CounterBlock b)
     put(b.infPixels);
     put(b.negativePixels);
     put(b.fallbackPixels);
+    put(b.pieces);
 }
 
 #elif defined(CONE_CASE)
@@ -357,6 +359,7 @@ void echo(BodyBlock b)
     put(b.firstEdge);
     put(b.edgeCount);
     put(b.flags);
+    put(b.margin);
 }
 
 #elif defined(FACE_BLOCK)
@@ -426,6 +429,114 @@ void echo(AreaAnswer b)
     put(b.unoccluded);
     put(b.shadowed);
     put(b.fallbacks);
+}
+
+#elif defined(AREA_LIGHT_BLOCK)
+
+#define Block AreaLightBlock
+void echo(AreaLightBlock b)
+{
+    put(b.radiance);
+    put(b.body);
+    put(b.light);
+}
+
+#elif defined(AREA_TILE_BLOCK)
+
+#define Block AreaTileBlock
+void echo(AreaTileBlock b)
+{
+    put(b.count);
+    for (int i = 0; i < b.occluders.length(); ++i)
+        put(b.occluders[i]);
+}
+
+#elif defined(AREA_BLOCK)
+
+#define Block AreaBlock
+void echo(AreaBlock b)
+{
+    put(b.arrays.bodies);
+    put(b.arrays.vertices);
+    put(b.arrays.faces);
+    put(b.arrays.corners);
+    put(b.arrays.edges);
+    put(b.lights);
+    put(b.owners);
+    put(b.firstOccluder);
+    put(b.occluderCount);
+    put(b.lightCount);
+    put(b.tilesAcross);
+}
+
+#elif defined(AREA_TILES)
+
+#define Block AreaTiles
+void echo(AreaTiles b)
+{
+    put(b.area);
+    put(b.tiles);
+    put(b.frame);
+    put(b.depth);
+    put(b.tileCount);
+}
+
+#elif defined(AREA_SHADE)
+
+#define Block AreaShade
+void echo(AreaShade b)
+{
+    put(b.area);
+    put(b.tiles);
+    put(b.counters);
+    put(b.scene);
+    put(b.frame);
+    put(b.depth);
+    put(b.normals);
+    put(b.albedo);
+    put(b.material);
+    put(b.ltcMatrix);
+    put(b.ltcAmplitude);
+    put(b.diffuse);
+    put(b.specular);
+    put(b.diffuseBefore);
+    put(b.specularBefore);
+    put(b.firstLight);
+    put(b.endLight);
+    put(b.mostPieces);
+    put(b.rays);
+    put(b.frameIndex);
+    put(b.pixelScale);
+}
+
+#elif defined(AREA_UPSAMPLE)
+
+#define Block AreaUpsample
+void echo(AreaUpsample b)
+{
+    put(b.frame);
+    put(b.depth);
+    put(b.normals);
+    put(b.diffuseLit);
+    put(b.specularLit);
+    put(b.diffuse);
+    put(b.specular);
+    put(b.pixelScale);
+}
+
+#elif defined(LIGHT_BODY_DRAW)
+
+#define Block LightBodyDraw
+void echo(LightBodyDraw b)
+{
+    for (int i = 0; i < b.worldFromLocal.length(); ++i)
+        put(b.worldFromLocal[i]);
+    put(b.positions);
+    put(b.normals);
+    put(b.radiance);
+    put(b.exposure);
+    put(b.frame);
+    put(b.isTwoSided);
 }
 
 #endif

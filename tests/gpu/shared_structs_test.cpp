@@ -158,7 +158,7 @@ TEST_F(SharedStructs, CounterBlock)
 {
     expectSameLayout<shader::CounterBlock>("COUNTER_BLOCK", [](const auto& b) {
         return wordsOf(b.raysConsidered, b.raysTraced, b.cones, b.clampedPixels, b.nanPixels, b.infPixels, b.negativePixels,
-                       b.fallbackPixels);
+                       b.fallbackPixels, b.pieces);
     });
 }
 
@@ -188,7 +188,8 @@ TEST_F(SharedStructs, IrradianceCase)
 TEST_F(SharedStructs, BodyBlock)
 {
     expectSameLayout<shader::BodyBlock>("BODY_BLOCK", [](const auto& b) {
-        return wordsOf(b.centre, b.radius, b.firstVertex, b.vertexCount, b.firstFace, b.faceCount, b.firstEdge, b.edgeCount, b.flags);
+        return wordsOf(b.centre, b.radius, b.firstVertex, b.vertexCount, b.firstFace, b.faceCount, b.firstEdge, b.edgeCount, b.flags,
+                       b.margin);
     });
 }
 
@@ -225,6 +226,53 @@ TEST_F(SharedStructs, EvalArea)
     expectSameLayout<shader::EvalArea>("EVAL_AREA", [](const auto& b) {
         return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.cases, b.answers,
                        b.caseCount, b.mostPieces);
+    });
+}
+
+TEST_F(SharedStructs, AreaLightBlock)
+{
+    expectSameLayout<shader::AreaLightBlock>("AREA_LIGHT_BLOCK", [](const auto& b) { return wordsOf(b.radiance, b.body, b.light); });
+}
+
+TEST_F(SharedStructs, AreaTileBlock)
+{
+    expectSameLayout<shader::AreaTileBlock>("AREA_TILE_BLOCK", [](const auto& b) { return wordsOf(b.count, b.occluders); });
+}
+
+TEST_F(SharedStructs, AreaBlock)
+{
+    expectSameLayout<shader::AreaBlock>("AREA_BLOCK", [](const auto& b) {
+        return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.lights, b.owners,
+                       b.firstOccluder, b.occluderCount, b.lightCount, b.tilesAcross);
+    });
+}
+
+TEST_F(SharedStructs, AreaTiles)
+{
+    expectSameLayout<shader::AreaTiles>("AREA_TILES",
+                                        [](const auto& b) { return wordsOf(b.area, b.tiles, b.frame, b.depth, b.tileCount); });
+}
+
+TEST_F(SharedStructs, AreaShade)
+{
+    expectSameLayout<shader::AreaShade>("AREA_SHADE", [](const auto& b) {
+        return wordsOf(b.area, b.tiles, b.counters, b.scene, b.frame, b.depth, b.normals, b.albedo, b.material, b.ltcMatrix, b.ltcAmplitude,
+                       b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.rays,
+                       b.frameIndex, b.pixelScale);
+    });
+}
+
+TEST_F(SharedStructs, AreaUpsample)
+{
+    expectSameLayout<shader::AreaUpsample>("AREA_UPSAMPLE", [](const auto& b) {
+        return wordsOf(b.frame, b.depth, b.normals, b.diffuseLit, b.specularLit, b.diffuse, b.specular, b.pixelScale);
+    });
+}
+
+TEST_F(SharedStructs, LightBodyDraw)
+{
+    expectSameLayout<shader::LightBodyDraw>("LIGHT_BODY_DRAW", [](const auto& b) {
+        return wordsOf(b.worldFromLocal, b.positions, b.normals, b.radiance, b.exposure, b.frame, b.isTwoSided);
     });
 }
 

@@ -139,7 +139,7 @@ TEST_F(PanelsTest, EveryViewHasAButton)
 TEST_F(PanelsTest, EveryLiveKnobIsReachedAndStaysInItsRange)
 {
     std::set<std::string_view> reached;
-    clickAllOver(704, 320, [&](float x, float y) {
+    clickAllOver(704, 440, [&](float x, float y) {
         click(x, y + 34); // into the list that a choice opens
         for (const render::KnobDescription& knob : render::knobTable()) {
             if (knob.read(knobs_) != knob.read(render::Knobs{}))

@@ -111,10 +111,12 @@ TEST(Populate, MakesTheSceneItWasTold)
     EXPECT_EQ(made.only<SDFPrimitive>().radius, 3);
 }
 
-TEST(Populate, WithoutAnEnvironmentItIsDark)
+TEST(Populate, WithoutAnEnvironmentThereIsNone)
 {
     const Populated made(sceneOf("{}"));
-    EXPECT_THAT(made.assets.environments.at(made.only<Environment>().image).values, testing::Each(0.0f));
+    EXPECT_TRUE(made.assets.environments.empty());
+    for ([[maybe_unused]] auto [environment] : Each<const Environment>(made.world))
+        ADD_FAILURE() << "an environment";
 }
 
 TEST(Populate, MeshesAreLoadedOnceAndMaterialsCopiedOnce)

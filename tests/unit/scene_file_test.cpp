@@ -181,7 +181,7 @@ TEST(SceneFile, OverridesSizeACrowd)
     EXPECT_EQ(load(kCrowd, {{"crowd.count", "200"}}).entities.size(), 200u);
     EXPECT_EQ(load(kCrowd, {{"crowd.count", "7"}, {"crowd.count", "1"}}).entities.size(), 1u);
     for (const char* wrong : {"0", "201", "-3", "ten", "", "10.5", "99999999999"})
-        expectFault(faultOf(kCrowd, {{"crowd.count", wrong}}), {"entities[0].repeat.count", "crowd.count", "1 to 200"});
+        expectFault(faultOf(kCrowd, {{"crowd.count", wrong}}), {"entities[0].repeat.count", "crowd.count", "0 to 200"});
     expectFault(faultOfEntity(R"({"repeat": {"count": "crowd.size"}})"), {"crowd.size"});
 }
 
@@ -236,7 +236,7 @@ TEST(SceneFile, ValuesHaveTypesAndRanges)
                                R"({"SDFPrimitive": {"shape": "sphere", "k": 1}})",
                                R"({"SDFPrimitive": {"shape": "plane", "normal": [0, 0, 0]}})",
                                R"({"SDFPrimitive": {"shape": "sphere", "order": 1.5}})",
-                               R"({"repeat": {"count": 0}})",
+                               R"({"repeat": {"count": -1}})",
                                R"({"repeat": {"count": 1000000}})",
                                R"({"mesh": "cube", "Occluder": {"shape": "triangles", "max_vertices": 8}})"})
         expectFault(faultOfEntity(entity), {"entities[0]"});

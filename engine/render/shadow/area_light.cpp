@@ -13,10 +13,10 @@ namespace {
 using graph::Use;
 using scene::LightShadow;
 
-constexpr uint32_t kReferenceRays = 64;    // a frame: small enough to keep a live view usable
-constexpr uint32_t kLiveSamples = 4096;    // of the reference, where no number is set
-constexpr uint32_t kOccludersALight = 8;   // of a pixel in closed form
-constexpr uint32_t kCutsAPolygon = 12;     // corners that it may gain
+constexpr uint32_t kReferenceRays = 64;  // a frame: small enough to keep a live view usable
+constexpr uint32_t kLiveSamples = 4096;  // of the reference, where no number is set
+constexpr uint32_t kOccludersALight = 8; // of a pixel in closed form
+constexpr uint32_t kCutsAPolygon = 12;   // corners that it may gain
 constexpr uint32_t kMostPolygonCorners = 64;
 constexpr uint32_t kMostSilhouetteEdges = 64;
 constexpr gpu::Format kLitFormat = gpu::Format::Rgba16Float;
@@ -54,7 +54,7 @@ std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes)
 {
     const auto polygonCorners = static_cast<int>(sizes.outlineCorners + kCutsAPolygon);
     const auto edges = static_cast<int>(sizes.silhouetteEdges);
-    return {{"POLYGON_PLACES", static_cast<int>(kOccludersALight) + 4},
+    return {{"POLYGON_PLACES", static_cast<int>(kOccludersALight) + 6},
             {"POLYGON_CORNERS", polygonCorners},
             {"SILHOUETTE_EDGES", edges * static_cast<int>(kOccludersALight)},
             {"SILHOUETTE_BODY_EDGES", edges},
@@ -144,11 +144,11 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
         pass.read(frame.posed->scene, frame.posed->sceneUse);
     else if (frame.tiles)
         pass.read(frame.tiles, Use::StorageRead);
-    const gpu::Pipeline& pipeline = pipelineFor({range.shadow, frame.isGlossy, isTraced ? frame.scene->backend() : RayBackend::Auto,
-                                                 rounded(bodies_.sizes())});
+    const gpu::Pipeline& pipeline =
+        pipelineFor({range.shadow, frame.isGlossy, isTraced ? frame.scene->backend() : RayBackend::Auto, rounded(bodies_.sizes())});
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
-    pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range, before,
-                 made, counters, traced, rays, frameIndex, scale,
+    pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range,
+                 before, made, counters, traced, rays, frameIndex, scale,
                  mostPieces = frame.view->knobs.area.pieces](graph::Recorder& recorder) {
         const auto sampled = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNothingBefore; };
         recorder.dispatch(pipeline,
@@ -183,8 +183,7 @@ AreaLit AreaLightSystem::declareReference(graph::FrameGraph& graph, const Frame&
     const uvec2 extent = graph.extent(frame.g->depth);
     const graph::ImageDesc desc{.format = kMeanFormat, .extent = extent};
     const graph::History diffuse = graph.history("area reference, diffuse", desc, diffuseHistory_);
-    const graph::History specular =
-        frame.isGlossy ? graph.history("area reference, specular", desc, specularHistory_) : graph::History{};
+    const graph::History specular = frame.isGlossy ? graph.history("area reference, specular", desc, specularHistory_) : graph::History{};
     const uint64_t now = fingerprintOf(*frame.view, frame.scene->backend(), extent);
     if (now != seen_ || !diffuse.valid)
         referenceFrames_ = 0;
@@ -226,18 +225,19 @@ AreaLit AreaLightSystem::declareUpsample(graph::FrameGraph& graph, const Frame& 
     const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth};
     const AreaLit made{pass.create("area diffuse, upsampled", desc, Use::StorageWrite),
                        frame.isGlossy ? pass.create("area specular, upsampled", desc, Use::StorageWrite) : graph::ImageRef{}};
-    pass.record([&pipeline, slot = frame.slot, g = *frame.g, lit, made, scale = static_cast<uint32_t>(frame.scale)](graph::Recorder& recorder) {
-        recorder.dispatch(pipeline,
-                          shader::AreaUpsample{.frame = slot,
-                                               .depth = recorder.sampled(g.depth),
-                                               .normals = recorder.sampled(g.normals),
-                                               .diffuseLit = recorder.sampled(lit.diffuse),
-                                               .specularLit = lit.specular ? recorder.sampled(lit.specular) : 0,
-                                               .diffuse = recorder.storage(made.diffuse),
-                                               .specular = made.specular ? recorder.storage(made.specular) : 0,
-                                               .pixelScale = static_cast<int>(scale)},
-                          recorder.extent(g.depth) / scale + 2u);
-    });
+    pass.record(
+        [&pipeline, slot = frame.slot, g = *frame.g, lit, made, scale = static_cast<uint32_t>(frame.scale)](graph::Recorder& recorder) {
+            recorder.dispatch(pipeline,
+                              shader::AreaUpsample{.frame = slot,
+                                                   .depth = recorder.sampled(g.depth),
+                                                   .normals = recorder.sampled(g.normals),
+                                                   .diffuseLit = recorder.sampled(lit.diffuse),
+                                                   .specularLit = lit.specular ? recorder.sampled(lit.specular) : 0,
+                                                   .diffuse = recorder.storage(made.diffuse),
+                                                   .specular = made.specular ? recorder.storage(made.specular) : 0,
+                                                   .pixelScale = static_cast<int>(scale)},
+                              recorder.extent(g.depth) / scale + 2u);
+        });
     return made;
 }
 

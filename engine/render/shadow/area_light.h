@@ -71,7 +71,7 @@ private:
     std::vector<Made> pipelines_; // each made when first asked for
     gpu::Pipeline tiles_;
     std::array<gpu::Pipeline, 2> upsample_; // by whether glossy
-    gpu::Image ltcMatrix_, ltcAmplitude_; // only while something glossy is lit
+    gpu::Image ltcMatrix_, ltcAmplitude_;   // only while something glossy is lit
     graph::HistorySlot diffuseHistory_, specularHistory_;
     uint64_t seen_ = 0;
     uint32_t referenceFrames_ = 0;

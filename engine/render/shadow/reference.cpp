@@ -2,7 +2,6 @@
 
 #include "render/shadow/fingerprint.h"
 
-
 namespace antumbra::render {
 
 namespace {
