@@ -180,9 +180,22 @@ TEST(SceneFile, OverridesSizeACrowd)
 {
     EXPECT_EQ(load(kCrowd, {{"crowd.count", "200"}}).entities.size(), 200u);
     EXPECT_EQ(load(kCrowd, {{"crowd.count", "7"}, {"crowd.count", "1"}}).entities.size(), 1u);
-    for (const char* wrong : {"0", "201", "-3", "ten", "", "10.5", "99999999999"})
+    EXPECT_TRUE(load(kCrowd, {{"crowd.count", "0"}}).entities.empty());
+    for (const char* wrong : {"-1", "201", "-3", "ten", "", "10.5", "99999999999"})
         expectFault(faultOf(kCrowd, {{"crowd.count", wrong}}), {"entities[0].repeat.count", "crowd.count", "0 to 200"});
     expectFault(faultOfEntity(R"({"repeat": {"count": "crowd.size"}})"), {"crowd.size"});
+}
+
+TEST(SceneFile, SettingsChooseWhatThereIs)
+{
+    constexpr const char* kChoice = R"({"settings": {"gallery.light": "plane"}, "entities": [
+        {"name": "flat", "only_if": {"gallery.light": "plane"}}, {"name": "round", "only_if": {"gallery.light": "cone"}}, {"name": "floor"}]})";
+    const SceneFile scene = load(kChoice), other = load(kChoice, {{"gallery.light", "cone"}});
+    ASSERT_EQ(scene.entities.size(), 2u);
+    EXPECT_EQ(scene.entities[0].name, "flat");
+    ASSERT_EQ(other.entities.size(), 2u);
+    EXPECT_EQ(other.entities[0].name, "round");
+    expectFault(faultOfEntity(R"({"only_if": {"gallery.light": "cone"}})"), {"only_if", "gallery.light"});
 }
 
 TEST(SceneFile, ParentsAreFoundByNameInAnyOrder)
