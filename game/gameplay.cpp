@@ -86,6 +86,7 @@ void addGameplay(ecs::World& world, ecs::Schedule& schedule)
     schedule.add("accompany", accompany).after("control time").after("control player");
     schedule.add("move characters", moveCharacters).after("accompany");
     schedule.add("place camera", placeCamera).after("move characters");
+    schedule.add("circle", circle).after("control time").after("place camera");
 }
 
 } // namespace antumbra::game

@@ -4,6 +4,14 @@
 
 namespace antumbra::game {
 
+void circle(ecs::Each<scene::Transform, scene::Orbit> circling, ecs::Seconds step)
+{
+    for (auto [transform, orbit] : circling) {
+        orbit.radians = std::remainder(orbit.radians + orbit.radiansPerSecond * step.value, 2 * kPi);
+        transform.position = orbit.centre + orbit.radius * vec3(std::cos(orbit.radians), 0, -std::sin(orbit.radians));
+    }
+}
+
 void turnLight(ecs::Each<scene::Environment> environments, const app::InputFrame& input)
 {
     for (auto [environment] : environments)

@@ -29,6 +29,7 @@
 #include "lib/blocked.glsl"
 #include "lib/surface.glsl"
 #include "lib/hemisphere.glsl"
+#include "lib/spread.glsl"
 #ifdef GLOSSY
 #include "lib/ltc.glsl"
 #include "lib/ggx.glsl"
@@ -245,7 +246,7 @@ vec3 addedUp(uint before, ivec2 pixel, vec3 value)
 
 void main()
 {
-    ivec2 litPixel = ivec2(gl_GlobalInvocationID.xy), extent = textureSize(sampledImages[pc.depth], 0);
+    ivec2 litPixel = ivec2(spreadInvocation(kAreaGroupHeight)), extent = textureSize(sampledImages[pc.depth], 0);
     ivec2 pixel = min(litPixel * pc.pixelScale + pc.pixelScale / 2, extent - 1);
     bool isInside = all(lessThan(litPixel * pc.pixelScale, extent));
     float depth = isInside ? texelFetch(sampledImages[pc.depth], pixel, 0).x : 0.0;

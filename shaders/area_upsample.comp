@@ -5,6 +5,7 @@
 #include "lib/bindless.glsl"
 #include "lib/frame.glsl"
 #include "shared/area.h"
+#include "lib/spread.glsl"
 #include "lib/surface.glsl"
 
 layout(push_constant, scalar) uniform Push { AreaUpsample pc; };
@@ -73,7 +74,7 @@ void upsample(ivec2 pixel, ivec2 corner, float depthView)
 void main()
 {
     fullExtent = textureSize(sampledImages[pc.depth], 0);
-    ivec2 corner = ivec2(gl_GlobalInvocationID.xy) - 1;
+    ivec2 corner = ivec2(spreadInvocation(8u)) - 1;
     ivec2 first = corner * pc.pixelScale + pc.pixelScale / 2;
     if (any(greaterThanEqual(first, fullExtent)))
         return;

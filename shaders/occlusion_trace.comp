@@ -11,6 +11,7 @@
 #include "shared/composite.h"
 #include "lib/surface.glsl"
 #include "lib/hemisphere.glsl"
+#include "lib/spread.glsl"
 #include "lib/sh.glsl"
 #include "lib/cone.glsl"
 #ifdef COMPUTE_BVH
@@ -275,7 +276,7 @@ Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 
 void main()
 {
-    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uvec2 pixel = spreadInvocation(kTraceGroupHeight);
     uvec2 fullExtent = uvec2(textureSize(sampledImages[pc.depth], 0));
     uvec2 extent = uvec2(ceil(vec2(fullExtent) / pc.pixelScale));
     uvec2 fullPixel = min(uvec2((vec2(pixel) + 0.5) * pc.pixelScale), fullExtent - 1u);

@@ -233,6 +233,7 @@ Knobs defaultKnobs(DeviceClass device)
         knobs.occlusion.samples = 32;
         knobs.occlusion.scale = Scale::Quarter;
         knobs.area.scale = Scale::Quarter;
+        knobs.area.pieces = 24;
     }
     return knobs;
 }

@@ -79,6 +79,15 @@ struct Pose
     uint64_t version = 0; // differs exactly when the pose does, and is never another slot's
 };
 
+/// Circles about `centre`, in the plane of the parent's XZ.
+struct Orbit
+{
+    vec3 centre{0};
+    float radius = 0.5f;
+    float radiansPerSecond = 1; // counter-clockwise seen from above
+    float radians = 0;          // where it is
+};
+
 /// Does not move: its lighting by the environment is baked.
 struct StaticPRT
 {

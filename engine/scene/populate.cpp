@@ -151,6 +151,15 @@ void addWherePresent(ecs::World& world, ecs::Entity made, const std::optional<T>
         world.add(made, *component);
 }
 
+void addOrbit(ecs::World& world, ecs::Entity made, const SceneEntity& entity)
+{
+    if (!entity.orbit)
+        return;
+    Orbit orbit = *entity.orbit;
+    orbit.centre = entity.transform.position;
+    world.add(made, orbit);
+}
+
 /// One entity for each of the scene's, in their order.
 std::vector<ecs::Entity> addEntities(ecs::World& world, Assets& assets, const SceneFile& scene)
 {
@@ -169,6 +178,7 @@ std::vector<ecs::Entity> addEntities(ecs::World& world, Assets& assets, const Sc
         if (entity.isDynamicSkinned)
             world.add(made[i], DynamicSkinned{});
         addWherePresent(world, made[i], entity.areaLight);
+        addOrbit(world, made[i], entity);
         addWherePresent(world, made[i], entity.occluder);
         addWherePresent(world, made[i], entity.sdfPrimitive);
         if (entity.mesh.kind == MeshKind::None)

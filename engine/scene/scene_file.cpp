@@ -125,8 +125,8 @@ bool readMarker(const JsonObject& part, std::string_view key)
 
 SceneEntity readEntity(const JsonObject& part, const Path& folder, std::vector<std::string>& fields)
 {
-    part.allowOnly({"name", "parent", "transform", "mesh", "material", "animation", "repeat", "only_if", "StaticPRT", "DynamicSkinned",
-                    "AreaLight", "Occluder", "SDFPrimitive"});
+    part.allowOnly({"name", "parent", "transform", "mesh", "material", "animation", "orbit", "repeat", "only_if", "StaticPRT",
+                    "DynamicSkinned", "AreaLight", "Occluder", "SDFPrimitive"});
     SceneEntity entity;
     entity.name = part.text("name", "");
     entity.transform = readTransform(part.object("transform"));
@@ -135,6 +135,8 @@ SceneEntity readEntity(const JsonObject& part, const Path& folder, std::vector<s
         entity.material = readMaterial(part.object("material"));
     if (part.has("animation"))
         entity.animation = readAnimation(part.object("animation"));
+    if (part.has("orbit"))
+        entity.orbit = readOrbit(part.object("orbit"));
     entity.isStaticPRT = readMarker(part, "StaticPRT");
     entity.isDynamicSkinned = readMarker(part, "DynamicSkinned");
     if (part.has("AreaLight"))

@@ -37,6 +37,7 @@ struct SceneEntity
     SceneMesh mesh;
     std::optional<Material> material; // in place of the mesh's own
     std::optional<SceneAnimation> animation;
+    std::optional<Orbit> orbit; // about the transform's position
     bool isStaticPRT = false;
     bool isDynamicSkinned = false;
     std::optional<AreaLight> areaLight;

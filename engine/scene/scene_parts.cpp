@@ -190,6 +190,14 @@ SceneAnimation readAnimation(const JsonObject& part)
         .clip = part.text("clip", ""), .speed = part.number("speed", 1, {-100, 100}), .offsetSeconds = part.number("offset", 0, {0, 1e5f})};
 }
 
+Orbit readOrbit(const JsonObject& part)
+{
+    part.allowOnly({"radius", "period", "phase_deg"});
+    return {.radius = part.number("radius", 0.5f, kPositiveLength),
+            .radiansPerSecond = 2 * kPi / part.number("period", 8, {0.1f, 1e5f}),
+            .radians = glm::radians(part.number("phase_deg", 0, kAnyDegrees))};
+}
+
 AreaLight readAreaLight(const JsonObject& part)
 {
     AreaLight light;

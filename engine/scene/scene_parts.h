@@ -10,6 +10,7 @@ namespace antumbra::scene {
 Transform readTransform(const JsonObject& part);
 Material readMaterial(const JsonObject& part);
 SceneAnimation readAnimation(const JsonObject& part);
+Orbit readOrbit(const JsonObject& part);
 AreaLight readAreaLight(const JsonObject& part);
 Occluder readOccluder(const JsonObject& part);
 /// Adds the name of the field it is of to `fields` where it is not there yet.

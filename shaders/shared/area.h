@@ -61,7 +61,7 @@ struct AreaLightBlock
 
 // Pixels of a group: narrow, so that the lanes of a CPU device, eight, are close together.
 const uint kAreaGroupWidth = 4u;
-const uint kAreaGroupHeight = 16u;
+const uint kAreaGroupHeight = 8u;
 
 // Tiles are squares of pixels.
 const uint kAreaTileSize = 16u;

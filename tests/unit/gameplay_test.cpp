@@ -77,6 +77,31 @@ TEST(Gameplay, TheSameScriptGivesTheSameStateTwice)
     }
 }
 
+TEST(Gameplay, LampsCircleAboutWhereTheyHangAndStopWithTheGame)
+{
+    Stage stage(app::findScene("stage", {}), 1, addGameplay);
+    const auto places = [&] {
+        std::vector<std::pair<vec3, float>> found; // from the centre, and how far that should be
+        for (auto [transform, orbit] : Each<const scene::Transform, const scene::Orbit>(stage.world()))
+            found.emplace_back(transform.position - orbit.centre, orbit.radius);
+        return found;
+    };
+    run(stage, {}, 1);
+    const auto before = places();
+    ASSERT_EQ(before.size(), 3u);
+    run(stage, {}, 30);
+    const auto after = places();
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(glm::length(after[i].first), after[i].second, 1e-4);
+        EXPECT_GT(glm::distance(after[i].first, before[i].first), 0.05f);
+        EXPECT_EQ(after[i].first.y, 0);
+    }
+    run(stage, pressing(Action::Pause), 1);
+    const auto paused = places();
+    run(stage, {}, 30);
+    EXPECT_EQ(places(), paused);
+}
+
 TEST(Gameplay, AnotherSeedOrInputGivesAnotherState)
 {
     Stage stage = playedPlaza(1), otherSeed = playedPlaza(2), otherInput = playedPlaza(1);
