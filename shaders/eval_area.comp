@@ -1,4 +1,5 @@
-// Shares of area lights behind convex bodies, for cases of golden/README.md: one thread a case, with room for the hardest of them.
+// Shares of area lights behind convex bodies, for cases of golden/README.md: one thread a case, with room for the hardest of them. Variant
+// IN_SCRATCH: in memory, as drivers of GPUs refuse threads that much of their own.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -11,6 +12,22 @@
 #define LIGHT_VERTICES 64
 #define AREA_OCCLUDERS 400
 #define AREA_SIGNED 2
+#ifdef IN_SCRATCH
+layout(buffer_reference, scalar) buffer Scratch
+{
+    vec4 polygonCorners[POLYGON_PLACES * POLYGON_CORNERS];
+    vec4 edgePlanes[SILHOUETTE_EDGES];
+    vec3 edgeStarts[SILHOUETTE_EDGES];
+    vec3 edgeSpans[SILHOUETTE_EDGES];
+    vec3 lobePlanes[SILHOUETTE_EDGES];
+};
+Scratch scratch;
+#define polygonCorners scratch.polygonCorners
+#define edgePlanes scratch.edgePlanes
+#define edgeStarts scratch.edgeStarts
+#define edgeSpans scratch.edgeSpans
+#define lobePlanes scratch.lobePlanes
+#endif
 #include "lib/area.glsl"
 #include "shared/eval.h"
 
@@ -36,6 +53,9 @@ AreaAnswer answerOf(AreaCase at)
 void main()
 {
     uint index = gl_GlobalInvocationID.x;
+#ifdef IN_SCRATCH
+    scratch = Scratch(pc.scratch + uint64_t(index) * kAreaScratchBytes);
+#endif
     if (index < pc.caseCount)
         Answers(pc.answers).block[index] = answerOf(Cases(pc.cases).block[index]);
 }

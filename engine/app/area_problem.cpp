@@ -120,4 +120,15 @@ shader::AreaCase deviceCase(const AreaProblem& problem, render::BodyBlocks& bodi
     return made;
 }
 
+gpu::Pipeline areaPipeline(gpu::Device& device)
+{
+    constexpr gpu::ShaderDefine inScratch{"IN_SCRATCH"};
+    return gpu::computePipeline(device, "eval_area.comp", std::span(&inScratch, device.info().isCpu ? 0 : 1));
+}
+
+gpu::Buffer areaScratch(gpu::Device& device, size_t count)
+{
+    return device.info().isCpu ? gpu::Buffer{} : gpu::Buffer(device, "area scratch", count * shader::kAreaScratchBytes);
+}
+
 } // namespace antumbra::app

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "app/eval_cases.h"
+#include "gpu/buffer.h"
+#include "gpu/pipeline.h"
 #include "render/body_blocks.h"
 
 namespace antumbra::app {
@@ -28,5 +30,9 @@ AreaProblem areaProblemOf(const EvalCase& from);
 
 /// As shaders/eval_area.comp takes it; its bodies are added, moved by `toWorld`, which moves nothing else.
 shader::AreaCase deviceCase(const AreaProblem& problem, render::BodyBlocks& bodies, const mat4& toWorld = mat4{1});
+
+/// shaders/eval_area.comp as this device takes it, and what it needs beside `count` cases; empty where threads have room of their own.
+gpu::Pipeline areaPipeline(gpu::Device& device);
+gpu::Buffer areaScratch(gpu::Device& device, size_t count);
 
 } // namespace antumbra::app

@@ -44,11 +44,13 @@ std::vector<shader::AreaAnswer> answersOf(gpu::Device& device, const gpu::Pipeli
     const gpu::Buffer inputs = uploaded(cases), bodyBlocks = uploaded(bodies.bodies), vertices = uploaded(bodies.vertices),
                       faces = uploaded(bodies.faces), corners = uploaded(bodies.corners), edges = uploaded(bodies.edges);
     const gpu::Buffer answers(device, "area answers", EvalCases::kBatch * sizeof(shader::AreaAnswer), gpu::MemoryKind::Readback);
+    const gpu::Buffer scratch = areaScratch(device, batch.size());
     const auto count = static_cast<uint32_t>(batch.size());
     dispatchNow(device, pipeline,
                 shader::EvalArea{.arrays = {bodyBlocks.address(), vertices.address(), faces.address(), corners.address(), edges.address()},
                                  .cases = inputs.address(),
                                  .answers = answers.address(),
+                                 .scratch = scratch.address(),
                                  .caseCount = count,
                                  .mostPieces = kMostPieces},
                 count);
@@ -61,7 +63,7 @@ std::vector<shader::AreaAnswer> answersOf(gpu::Device& device, const gpu::Pipeli
 Evaluation evaluateArea(gpu::Device& device, const Path& file)
 {
     const EvalCases cases(file);
-    const gpu::Pipeline pipeline = gpu::computePipeline(device, "eval_area.comp");
+    const gpu::Pipeline pipeline = areaPipeline(device);
     Evaluation evaluation{.cases = cases.size()};
     json results = json::array();
     for (size_t first = 0; first < cases.size(); first += EvalCases::kBatch) {

@@ -6,7 +6,9 @@
 #include "lib/angle.glsl"
 
 // xyz: unit, counter-clockwise seen from the point. w: z of the inward unit normal of the plane to the next corner.
+#ifndef IN_SCRATCH // the largest arrays may lie in memory
 vec4 polygonCorners[POLYGON_PLACES * POLYGON_CORNERS];
+#endif
 int cornerCounts[POLYGON_PLACES];
 
 const float kOnPlane = 2.0e-7; // a corner this near a plane, of unit vectors, lies on it: rounding of four products

@@ -19,9 +19,11 @@ struct CutPlane
 };
 
 // Edges of silhouettes, counter-clockwise seen from the point, one body after another. All are relative to the point.
+#ifndef IN_SCRATCH
 vec3 edgeStarts[SILHOUETTE_EDGES];
 vec3 edgeSpans[SILHOUETTE_EDGES];
 vec4 edgePlanes[SILHOUETTE_EDGES]; // unit, what the body hides in front. w: 1 where it is a face's plane, not that of the edge
+#endif
 vec3 edgeEnds[2 * SILHOUETTE_BODY_EDGES]; // unit, of the body that was gathered last: what of the edge is in front of the cut
 int edgeCount = 0;
 int endCount = 0; // of edgeEnds

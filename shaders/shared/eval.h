@@ -80,11 +80,14 @@ struct AreaAnswer
     uint fallbacks;
 };
 
+const uint kAreaScratchBytes = 147456u; // 66 polygons of 64 corners, and 1536 edges of 52 bytes
+
 struct EvalArea
 {
     BodyArrays arrays;
     uint64_t cases; // AreaCase[caseCount]
     uint64_t answers; // AreaAnswer[caseCount], written
+    uint64_t scratch; // kAreaScratchBytes a case, or null where threads have room of their own
     uint caseCount;
     uint mostPieces;
 };

@@ -27,7 +27,7 @@ app::AreaProblem movedBack(const app::AreaProblem& problem, const mat4& toWorld)
 
 } // namespace
 
-AreaRunner::AreaRunner(gpu::Device& device) : device_(device), pipeline_(gpu::computePipeline(device, "eval_area.comp")) {}
+AreaRunner::AreaRunner(gpu::Device& device) : device_(device), pipeline_(app::areaPipeline(device)) {}
 
 template <class T>
 uint64_t AreaRunner::put(size_t slot, const std::vector<T>& values)
@@ -51,11 +51,14 @@ std::vector<shader::AreaAnswer> AreaRunner::run(std::span<const app::AreaProblem
     if (answers_.bytes() < std::max(bytes, kLeastBytes))
         answers_ = gpu::Buffer(device_, "area answers", roomFor(bytes), gpu::MemoryKind::Readback);
     std::memset(answers_.mapped(), 0xff, bytes);
+    if (scratch_.bytes() < problems.size() * shader::kAreaScratchBytes)
+        scratch_ = app::areaScratch(device_, problems.size());
     const auto count = static_cast<uint32_t>(problems.size());
     const shader::EvalArea push{
         .arrays = {put(0, bodies_.bodies), put(1, bodies_.vertices), put(2, bodies_.faces), put(3, bodies_.corners), put(4, bodies_.edges)},
         .cases = put(5, cases_),
         .answers = answers_.address(),
+        .scratch = scratch_.address(),
         .caseCount = count,
         .mostPieces = mostPieces};
     gpu::dispatchNow(device_, pipeline_, push, count);

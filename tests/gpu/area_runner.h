@@ -30,6 +30,7 @@ private:
     gpu::Pipeline pipeline_;
     std::array<gpu::Buffer, 6> inputs_;
     gpu::Buffer answers_;
+    gpu::Buffer scratch_; // where threads have no room of their own
     render::BodyBlocks bodies_;
     std::vector<shader::AreaCase> cases_;
 };

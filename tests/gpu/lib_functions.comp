@@ -12,6 +12,7 @@
 #include "lib/compose.glsl"
 #include "lib/float21.glsl"
 #include "lib/tone.glsl"
+#include "lib/spread.glsl"
 #define POLYGON_PLACES 3
 #define POLYGON_CORNERS 40
 #include "lib/cone_polygon.glsl"
@@ -64,6 +65,12 @@ Out evaluate(In x)
     return Out(described(sphere, x.direction), uint(mayMeet(capsule, x.direction)), uint(isBehind(x.p, x.n, x.a, x.radius)),
                uint(hitsSphere(x.p, x.direction, x.a, x.radius)), greatestShare(sphere, x.n));
 }
+
+#elif defined(SPREAD_ROW)
+
+struct In { uint row; uint rows; };
+struct Out { uint row; };
+Out evaluate(In x) { return Out(spreadRow(x.row, x.rows)); }
 
 #elif defined(OCTAHEDRAL)
 

@@ -401,6 +401,7 @@ void echo(EvalArea b)
     echoArrays(b.arrays);
     put(b.cases);
     put(b.answers);
+    put(b.scratch);
     put(b.caseCount);
     put(b.mostPieces);
 }

@@ -224,7 +224,7 @@ TEST_F(SharedStructs, AreaAnswer)
 TEST_F(SharedStructs, EvalArea)
 {
     expectSameLayout<shader::EvalArea>("EVAL_AREA", [](const auto& b) {
-        return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.cases, b.answers,
+        return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.cases, b.answers, b.scratch,
                        b.caseCount, b.mostPieces);
     });
 }
