@@ -209,7 +209,7 @@ Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, i
 #endif
 #endif
     pieceCount += diffuse.pieces;
-    isFallback = isFallback || diffuse.fallbacks > 0u || isOccluderLost;
+    isFallback = isFallback || diffuse.fallbacks > 0u || isOccluderLost || isLightLost;
     Received sum = Received(light.radiance * (kPi * diffuse.visible), vec3(0.0));
 #ifdef GLOSSY
     sum.specular = light.radiance * (s.f0 * lobe.amplitude.x + (1.0 - s.f0) * lobe.amplitude.y) * secondShare.visible;

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace antumbra::app {
@@ -67,25 +68,38 @@ scene::Mesh meshOfAll(std::span<const ConvexBody> bodies)
     return all;
 }
 
-template <class T>
-scene::LightBodies addParts(Assets& assets, std::vector<T> parts)
+/// Where the first of them is.
+uint32_t addParts(Assets& assets, std::vector<BodyPart> parts)
 {
     const auto first = static_cast<uint32_t>(assets.bodyParts.size());
-    for (T& part : parts)
-        assets.bodyParts.push_back(std::move(part));
-    return {first, static_cast<uint32_t>(parts.size()), 0};
+    std::ranges::move(parts, std::back_inserter(assets.bodyParts));
+    return first;
+}
+
+/// Names the methods that are not there yet.
+void useWhatThereIs(AreaLight& light, const std::string& subject)
+{
+    using enum scene::LightShadow;
+    const auto isThere = [](scene::LightShadow shadow) {
+        return shadow == None || shadow == Analytic || shadow == Traced || shadow == Reference;
+    };
+    if (!light.shadow || isThere(*light.shadow))
+        return;
+    logWarning("{}: an AreaLight asks for a shadow that is not there yet and gets the analytic one", subject);
+    light.shadow = Analytic;
 }
 
 void makeLights(ecs::World& world, Assets& assets, const std::string& subject)
 {
     std::vector<std::pair<ecs::Entity, scene::LightBodies>> made;
-    for (auto [entity, light] : ecs::Each<ecs::Entity, const AreaLight>(world)) {
+    for (auto [entity, light] : ecs::Each<ecs::Entity, AreaLight>(world)) {
+        useWhatThereIs(light, subject);
         const std::vector<ConvexBody> bodies = bodiesOf(light, ownMesh(world, assets, entity), subject);
         std::vector<BodyPart> parts;
         for (const ConvexBody& body : bodies)
             parts.push_back({body});
-        made.emplace_back(entity, addParts(assets, std::move(parts)));
-        made.back().second.model = static_cast<uint32_t>(assets.models.size());
+        const auto count = static_cast<uint32_t>(parts.size()), model = static_cast<uint32_t>(assets.models.size());
+        made.emplace_back(entity, scene::LightBodies{addParts(assets, std::move(parts)), count, model});
         scene::Mesh mesh = meshOfAll(bodies);
         orderTriangles(mesh, mesh.positions);
         assets.models.push_back(rigidModel("light", std::move(mesh), {}));
@@ -114,9 +128,9 @@ std::vector<BodyPart> hullParts(const scene::Model& model, uint32_t greatestVert
     const std::map<uint32_t, std::vector<uint32_t>> vertices = scene::verticesByJoint(model.mesh);
     std::vector<BodyPart> parts;
     for (bake::Hull& hull : bake::hullsOfModel(model, greatestVertices)) {
-        const bool isSolid = !hull.body.isPlanar; // a flat one has no inside
+        const bool isHollow = !hull.body.isPlanar; // a flat one has no inside
         const float margin = marginOf(hull.body, model.mesh, vertices.at(hull.joint));
-        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = isSolid, .margin = margin});
+        parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = isHollow, .margin = margin});
     }
     // The largest first: what it hides of a light need not be asked about the others.
     std::ranges::sort(parts, std::greater{}, [](const BodyPart& part) { return surfaceArea(part.body); });
@@ -169,8 +183,9 @@ void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject
     for (auto [entity, occluder, drawable, dynamic] :
          ecs::Each<ecs::Entity, const scene::Occluder, const scene::Drawable, ecs::Maybe<const scene::DynamicSkinned>>(world))
     {
-        const scene::LightBodies range = addParts(assets, partsOf(assets.models[drawable.model], occluder, dynamic != nullptr, subject));
-        made.emplace_back(entity, scene::OccluderBodies{range.first, range.count});
+        std::vector<BodyPart> parts = partsOf(assets.models[drawable.model], occluder, dynamic != nullptr, subject);
+        const auto count = static_cast<uint32_t>(parts.size());
+        made.emplace_back(entity, scene::OccluderBodies{addParts(assets, std::move(parts)), count});
     }
     for (const auto& [entity, bodies] : made)
         world.add(entity, bodies);

@@ -86,17 +86,11 @@ void extractAreaLights(const ecs::World& world, FrameView& view)
                                    .shadow = light.shadow});
 }
 
-// Lights in the order that extractAreaLights finds them in.
-uint32_t lightOf(const ecs::World& world, ecs::Entity entity)
+/// The light that these are the bodies of.
+uint32_t lightOf(const FrameView& view, const scene::LightBodies& bodies)
 {
-    uint32_t index = 0;
-    for (auto [each] : Each<ecs::Entity, ecs::With<scene::AreaLight>, ecs::With<scene::LightBodies>, ecs::With<scene::WorldMatrix>>(world))
-    {
-        if (each == entity)
-            return index;
-        ++index;
-    }
-    return scene::kNoIndex;
+    const auto found = std::ranges::find(view.areaLights, bodies.first, &AreaLightDraw::firstPart);
+    return static_cast<uint32_t>(found - view.areaLights.begin());
 }
 
 void extractOccluders(const ecs::World& world, const scene::Assets& assets, FrameView& view)
@@ -104,10 +98,10 @@ void extractOccluders(const ecs::World& world, const scene::Assets& assets, Fram
     if (view.areaLights.empty())
         return;
     const auto& poses = world.resource<PoseStore>();
-    for (auto [entity, bodies, matrix, pose, light] : Each<ecs::Entity, const scene::OccluderBodies, const scene::WorldMatrix,
-                                                           ecs::Maybe<const Pose>, ecs::Maybe<const scene::AreaLight>>(world))
+    for (auto [bodies, matrix, pose, light] :
+         Each<const scene::OccluderBodies, const scene::WorldMatrix, ecs::Maybe<const Pose>, ecs::Maybe<const scene::LightBodies>>(world))
     {
-        const uint32_t own = light != nullptr ? lightOf(world, entity) : scene::kNoIndex;
+        const uint32_t own = light != nullptr ? lightOf(view, *light) : scene::kNoIndex;
         for (uint32_t part = bodies.first; part < bodies.first + bodies.count; ++part) {
             const uint32_t joint = assets.bodyParts[part].joint;
             const bool isPosed = pose != nullptr && joint != scene::kNoIndex;

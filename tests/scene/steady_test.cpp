@@ -35,7 +35,7 @@ void walk(Playback& playback, int frames)
     }
 }
 
-class SteadyTest : public testing::TestWithParam<bool>
+class SteadyTest : public testing::TestWithParam<std::tuple<const char*, bool>>
 {
 };
 
@@ -46,8 +46,9 @@ TEST_P(SteadyTest, AllocatesNothingOnHeapOrDevice)
         ASSERT_EQ(std::getenv("ANTUMBRA_REQUIRE_DEVICE"), nullptr) << "no Vulkan device";
         GTEST_SKIP() << "no Vulkan device";
     }
-    Stage stage(findScene("plaza", {}), 1, game::addGameplay);
-    Playback playback(*device, stage, {.sceneName = "plaza", .size = uvec2(64, 36), .showsOverlay = GetParam()});
+    const auto& [scene, showsOverlay] = GetParam();
+    Stage stage(findScene(scene, {}), 1, game::addGameplay);
+    Playback playback(*device, stage, {.sceneName = scene, .size = uvec2(64, 36), .showsOverlay = showsOverlay});
     playback.warmUp();
     walk(playback, kWarmFrames);
     const uint64_t heap = test::allocationCount();
@@ -57,8 +58,13 @@ TEST_P(SteadyTest, AllocatesNothingOnHeapOrDevice)
     EXPECT_EQ(playback.renderer().memory().allocationsEver - deviceRanges, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutOverlay, SteadyTest, testing::Bool(),
-                         [](const auto& isShown) { return isShown.param ? "WithOverlay" : "WithoutOverlay"; });
+std::string nameOf(const testing::TestParamInfo<SteadyTest::ParamType>& test)
+{
+    const auto& [scene, showsOverlay] = test.param;
+    return std::string(scene) + (showsOverlay ? "WithOverlay" : "WithoutOverlay");
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutOverlay, SteadyTest, testing::Combine(testing::Values("plaza", "stage"), testing::Bool()), nameOf);
 
 } // namespace
 } // namespace antumbra::app

@@ -142,6 +142,34 @@ TEST_F(AreaTest, LightAddsToThatOfTheEnvironment)
     EXPECT_LT(rmse(sum.capture(Aov::Irradiance), expected, surface), 2e-3 * meanOf(expected, surface));
 }
 
+TEST_F(AreaTest, LightsThatAreShadowedDifferentlyAddUp)
+{
+    scene::SceneFile scene = darkScene();
+    scene.entities.push_back(blocker({0, 0.4f, 0}, vec3(0.3f)));
+    const scene::SceneEntity left = lampAt({-0.8f, 1.2f, 0}), right = lampAt({0.8f, 1.2f, 0});
+    const auto lit = [&](std::initializer_list<std::pair<scene::SceneEntity, scene::LightShadow>> lamps, Aov aov) {
+        scene::SceneFile with = scene;
+        for (auto [lamp, shadow] : lamps) {
+            lamp.areaLight->shadow = shadow;
+            with.entities.push_back(lamp);
+        }
+        Shown shown(device(), with); // whose first frame makes the pipelines of all
+        return shown.capture(aov);
+    };
+    using enum scene::LightShadow;
+    const std::vector<size_t> surface = surfaceOf(lit({{left, None}}, Aov::Depth));
+    scene::ImageF expected = lit({{left, Analytic}}, Aov::Irradiance);
+    for (const auto& [lamp, shadow] : {std::pair(right, None), std::pair(right, Analytic)}) {
+        const scene::ImageF other = lit({{lamp, shadow}}, Aov::Irradiance), both = lit({{left, Analytic}, {lamp, shadow}}, Aov::Irradiance);
+        scene::ImageF sum = expected;
+        for (size_t i = 0; i < sum.values.size(); ++i)
+            sum.values[i] += other.values[i];
+        EXPECT_LT(rmse(both, sum, surface), 2e-3 * meanOf(sum, surface));
+    }
+    const double traced = meanOf(lit({{left, Analytic}, {right, None}, {right, Traced}}, Aov::Irradiance), surface);
+    EXPECT_GT(traced, meanOf(lit({{left, Analytic}, {right, None}}, Aov::Irradiance), surface));
+}
+
 TEST_F(AreaTest, WithoutAnEnvironmentThereIsNoPassOfOne)
 {
     scene::SceneFile scene = darkScene();

@@ -13,8 +13,6 @@ namespace {
 using graph::Use;
 using scene::LightShadow;
 
-constexpr uint32_t kReferenceRays = 64;  // a frame: small enough to keep a live view usable
-constexpr uint32_t kLiveSamples = 4096;  // of the reference, where no number is set
 constexpr uint32_t kOccludersALight = 8; // of a pixel in closed form
 constexpr uint32_t kCutsAPolygon = 12;   // corners that it may gain
 constexpr uint32_t kMostPolygonCorners = 64;
@@ -76,7 +74,7 @@ uint32_t wantedSamples(const Knobs& knobs) { return knobs.reference.samples > 0 
 
 std::optional<uint32_t> AreaLightSystem::referenceSamples() const
 {
-    return hasReference_ ? std::optional(referenceFrames_ * kReferenceRays) : std::nullopt;
+    return hasReference_ ? std::optional(referenceFrames_ * kSamplesAFrame) : std::nullopt;
 }
 
 void AreaLightSystem::prepareTables(bool isGlossy)
@@ -144,8 +142,8 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
         pass.read(frame.posed->scene, frame.posed->sceneUse);
     else if (frame.tiles)
         pass.read(frame.tiles, Use::StorageRead);
-    const gpu::Pipeline& pipeline =
-        pipelineFor({range.shadow, frame.isGlossy, isTraced ? frame.scene->backend() : RayBackend::Auto, rounded(bodies_.sizes())});
+    const gpu::Pipeline& pipeline = isTraced ? pipelineFor({range.shadow, frame.isGlossy, frame.scene->backend(), rounded({})})
+                                             : pipelineFor({range.shadow, frame.isGlossy, RayBackend::Auto, rounded(bodies_.sizes())});
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
     pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range,
                  before, made, counters, traced, rays, frameIndex, scale,
@@ -188,13 +186,13 @@ AreaLit AreaLightSystem::declareReference(graph::FrameGraph& graph, const Frame&
     if (now != seen_ || !diffuse.valid)
         referenceFrames_ = 0;
     seen_ = now;
-    const bool isDone = referenceFrames_ * kReferenceRays >= wantedSamples(frame.view->knobs);
+    const bool isDone = referenceFrames_ * kSamplesAFrame >= wantedSamples(frame.view->knobs);
     graph::Pass pass = graph.add(passOf(range.shadow));
     counters = pass.write(counters, Use::StorageWrite);
     const AreaLit mean{pass.write(diffuse.now, Use::StorageWrite),
                        frame.isGlossy ? pass.write(specular.now, Use::StorageWrite) : graph::ImageRef{}};
     const AreaLit before = referenceFrames_ > 0 ? AreaLit{diffuse.before, specular.before} : AreaLit{};
-    declareShade(pass, frame, range, before, mean, counters, isDone ? 0 : kReferenceRays, referenceFrames_, 1);
+    declareShade(pass, frame, range, before, mean, counters, isDone ? 0 : kSamplesAFrame, referenceFrames_, 1);
     referenceFrames_ += isDone ? 0 : 1;
     return mean;
 }

@@ -6,6 +6,10 @@
 #include "render/gbuffer.h"
 #include "render/shadow/area_bodies.h"
 
+#include <array>
+#include <deque>
+#include <optional>
+
 namespace antumbra::render {
 
 /// Absent without area lights.
@@ -32,7 +36,7 @@ private:
         scene::LightShadow shadow;
         bool isGlossy;
         RayBackend backend;
-        AreaSizes sizes; // as good as equal for what the pipeline does not depend on
+        AreaSizes sizes; // the least for what traces rays, which does not depend on them
 
         friend bool operator==(const Variant&, const Variant&) = default;
     };
@@ -68,7 +72,7 @@ private:
 
     gpu::Device* device_;
     AreaBodies bodies_;
-    std::vector<Made> pipelines_; // each made when first asked for
+    std::deque<Made> pipelines_; // each made when first asked for; passes hold on to those made before
     gpu::Pipeline tiles_;
     std::array<gpu::Pipeline, 2> upsample_; // by whether glossy
     gpu::Image ltcMatrix_, ltcAmplitude_;   // only while something glossy is lit

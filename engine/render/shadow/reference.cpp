@@ -8,8 +8,6 @@ namespace {
 
 using graph::Use;
 
-constexpr uint32_t kSamplesAFrame = 64; // small enough to keep a live view usable
-constexpr uint32_t kLiveSamples = 4096; // where a view asks for the reference and no number is set
 constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
 
 uint32_t wantedSamples(const Knobs& knobs)
