@@ -47,6 +47,7 @@ layout(buffer_reference, scalar) readonly buffer Areas { AreaBlock block; };
 layout(buffer_reference, scalar) readonly buffer Lights { AreaLightBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Tiles { AreaTileBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Owners { uint light[]; };
+layout(buffer_reference, scalar) readonly buffer Seen { float share[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { AreaShade pc; };
 
@@ -244,6 +245,14 @@ vec3 addedUp(uint before, ivec2 pixel, vec3 value)
 #endif
 }
 
+float seenPastFields(uint light, ivec2 litPixel, ivec2 extent)
+{
+    if (pc.seenPastFields == 0ul)
+        return 1.0;
+    ivec2 lit = (extent + pc.pixelScale - 1) / pc.pixelScale;
+    return Seen(pc.seenPastFields).share[(int(light) * lit.y + litPixel.y) * lit.x + litPixel.x];
+}
+
 void main()
 {
     ivec2 litPixel = ivec2(spreadInvocation(kAreaGroupHeight)), extent = textureSize(sampledImages[pc.depth], 0);
@@ -261,7 +270,8 @@ void main()
 #else
             Received one = received(area, light, i, s, pixel);
 #endif
-            sum = Received(sum.diffuse + one.diffuse, sum.specular + one.specular);
+            float seen = seenPastFields(i, litPixel, extent);
+            sum = Received(sum.diffuse + seen * one.diffuse, sum.specular + seen * one.specular);
         }
         sum.diffuse *= s.diffuse;
     }

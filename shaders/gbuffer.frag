@@ -5,11 +5,10 @@
 #include "shared/scene.h"
 #include "lib/half.glsl"
 #include "lib/octahedral.glsl"
-#include "lib/sh.glsl"
-#if defined(BAKED)
+#ifdef BAKED
 #include "lib/atlas.glsl"
-#elif defined(LOCAL_LIGHT)
-#include "lib/irradiance_volume.glsl"
+#else
+#include "lib/first_term.glsl"
 #endif
 
 // Variants: TEXTURED where the material may have an image; CUT_OUT, beside it, where it is cut out: discarding puts off the depth test.
@@ -35,19 +34,10 @@ layout(location = 3) out vec4 outMaterial; // roughness, metallic, specular
 
 vec3 firstTerm(vec3 shading)
 {
-#if defined(BAKED)
+#ifdef BAKED
     return atlasIrradiance(frameBlock.baked, bakePlace);
-#elif defined(LOCAL_LIGHT)
-    return localIrradianceOfQuad(frameBlock.baked, positionWorld, shading, gl_HelperInvocation);
-#elif defined(DARK)
-    return vec3(0.0);
 #else
-    float y[9];
-    shBasis3(shading, y);
-    vec3 irradiance = vec3(0.0);
-    for (int i = 0; i < 9; ++i)
-        irradiance += frameBlock.irradianceSh[i] * y[i];
-    return irradiance;
+    return firstTermAt(frameBlock, positionWorld, shading, gl_HelperInvocation);
 #endif
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 namespace antumbra::app {
 
@@ -24,16 +25,19 @@ double Comparison::rmse() const { return count_ > 0 ? std::sqrt(squares_ / stati
 
 ExitCode runEval(const EvalOptions& options)
 {
+    const render::Knobs knobs = render::resolveKnobs(render::DeviceClass::Gpu, {}, options.settings);
     struct Kind
     {
         const char* name;
-        Evaluation (*evaluate)(gpu::Device&, const Path&);
+        std::function<Evaluation(gpu::Device&, const Path&)> evaluate;
         const char* tolerance;
     };
-    constexpr Kind kKinds[] = {{"cones", evaluateCones, "1e-4, relative"},
-                               {"irradiance", evaluateIrradiance, "1 % of max(E_unshadowed, 0.3), constant light 0.5 %"},
-                               {"area", evaluateArea, "each case's own"}};
-    const Kind& kind = kKinds[static_cast<size_t>(options.kind)];
+    const auto evaluateField = [&knobs](gpu::Device& device, const Path& cases) { return evaluateSdf(device, cases, knobs.sdf); };
+    const Kind kinds[] = {{"cones", evaluateCones, "1e-4, relative"},
+                          {"irradiance", evaluateIrradiance, "1 % of max(E_unshadowed, 0.3), constant light 0.5 %"},
+                          {"area", evaluateArea, "each case's own"},
+                          {"sdf", evaluateField, "0.12, 0.01 where nothing is to guess"}};
+    const Kind& kind = kinds[static_cast<size_t>(options.kind)];
     gpu::Device device({});
     const Evaluation evaluation = kind.evaluate(device, options.cases);
     writeText(options.output, evaluation.results);

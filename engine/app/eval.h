@@ -43,5 +43,8 @@ Evaluation evaluateCones(gpu::Device& device, const Path& cases);
 Evaluation evaluateIrradiance(gpu::Device& device, const Path& cases);
 /// The error is that of the worse of both shares, compared to the case's own tolerance; 1 at least where a share leaves its range.
 Evaluation evaluateArea(gpu::Device& device, const Path& cases);
+/// By sdf.shadow and its knobs. The error is that of the visibility, compared to 0.12, and to 0.01 where nothing is left to guess: classes
+/// empty, inside_light, inside_solid, full_umbra.
+Evaluation evaluateSdf(gpu::Device& device, const Path& cases, const render::SdfKnobs& knobs);
 
 } // namespace antumbra::app

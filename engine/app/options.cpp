@@ -71,7 +71,9 @@ EvalKind parseKind(const std::string& option, const std::string& text)
         return EvalKind::Irradiance;
     if (text == "area")
         return EvalKind::Area;
-    refuse(option, "cones, irradiance or area", text);
+    if (text == "sdf")
+        return EvalKind::Sdf;
+    refuse(option, "cones, irradiance, area or sdf", text);
 }
 
 std::pair<std::string, std::string> splitAtEquals(const std::string& option, std::string_view form, const std::string& text)
@@ -164,9 +166,10 @@ void addRender(CLI::App& command, RenderOptions& options)
 
 void addEval(CLI::App& command, EvalOptions& options)
 {
-    add(command, "kind", "KIND", options.kind, parseKind, "cones, irradiance or area")->required();
+    add(command, "kind", "KIND", options.kind, parseKind, "cones, irradiance, area or sdf")->required();
     add(command, "cases", "CASES", options.cases, asText, "the cases, as JSON")->required();
     add(command, "--output", "FILE", options.output, asText, "the results, as JSON")->required();
+    addSettings(command, options.settings);
 }
 
 void addInspect(CLI::App& command, InspectOptions& options)

@@ -50,13 +50,14 @@ struct RenderOptions
     std::optional<Path> stats;
 };
 
-enum class EvalKind { Cones, Irradiance, Area };
+enum class EvalKind { Cones, Irradiance, Area, Sdf };
 
 struct EvalOptions
 {
     EvalKind kind = EvalKind::Cones;
     Path cases;
     Path output;
+    render::Settings settings; // sdf.shadow, sdf.cones, sdf.epsilon of the kind sdf
 };
 
 struct InfoOptions

@@ -50,7 +50,7 @@ Json countersOf(const shader::CounterBlock& counters)
             {"rays_traced", counters.raysTraced},
             {"cones", counters.cones},
             {"pieces", counters.pieces},
-            {"sdf_evaluations", 0}, // no SDF is drawn yet
+            {"sdf_evaluations", counters.fieldEvaluations},
             {"fallback_pixels", counters.fallbackPixels},
             {"clamped_pixels", counters.clampedPixels},
             {"nan_pixels", counters.nanPixels},

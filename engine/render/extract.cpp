@@ -1,7 +1,13 @@
 #include "render/extract.h"
 
+#include "base/error.h"
 #include "ecs/each.h"
+#include "render/field_steps.h"
 #include "scene/animator.h"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
 
 namespace antumbra::render {
 
@@ -110,6 +116,29 @@ void extractOccluders(const ecs::World& world, const scene::Assets& assets, Fram
     }
 }
 
+std::string nameOf(const scene::Name* name) { return name != nullptr ? name->text : "an entity without a name"; }
+
+void extractFields(const ecs::World& world, FrameView& view)
+{
+    for (auto [primitive, material, matrix, name] :
+         Each<const scene::SDFPrimitive, const scene::SDFMaterial, const scene::WorldMatrix, ecs::Maybe<const scene::Name>>(world))
+    {
+        const std::optional<shader::FieldStepBlock> step = fieldStep(primitive, matrix.now);
+        if (!step)
+            throw Error("SDFPrimitive: a parameter or the transform is not finite, or flattens it", nameOf(name));
+        const auto listed = static_cast<uint32_t>(view.fieldSteps.size());
+        view.fieldSteps.push_back({.field = primitive.field,
+                                   .order = primitive.order,
+                                   .listed = listed,
+                                   .step = *step,
+                                   .surface = {material.albedo, material.roughness, material.metallic, material.specular}});
+    }
+    std::ranges::sort(view.fieldSteps, {}, [](const FieldStepDraw& draw) { return std::tuple(draw.field, draw.order, draw.listed); });
+    for (size_t i = 0; i < view.fieldSteps.size(); ++i)
+        if (i == 0 || view.fieldSteps[i].field != view.fieldSteps[i - 1].field)
+            view.fieldSteps[i].step.flags |= shader::kFieldBegins;
+}
+
 } // namespace
 
 void extract(const ecs::World& world, const scene::Assets& assets, FrameView& view)
@@ -121,6 +150,7 @@ void extract(const ecs::World& world, const scene::Assets& assets, FrameView& vi
     extractCharacters(world, assets, view);
     extractAreaLights(world, view);
     extractOccluders(world, assets, view);
+    extractFields(world, view);
 }
 
 } // namespace antumbra::render

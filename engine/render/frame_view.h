@@ -4,6 +4,7 @@
 #include "bake/bake.h"
 #include "base/math.h"
 #include "render/knobs.h"
+#include "render/shader_structs.h"
 #include "scene/mesh.h"
 #include "scene/shadow_components.h"
 
@@ -69,6 +70,16 @@ struct OccluderDraw
     uint32_t light = scene::kNoIndex; // into FrameView::areaLights: the one that it is the body of, which it does not hide
 };
 
+/// A step of a distance field, in its place.
+struct FieldStepDraw
+{
+    uint32_t field = 0;
+    int32_t order = 0;   // of the steps of a field,
+    uint32_t listed = 0; // then this
+    shader::FieldStepBlock step{};
+    shader::FieldSurfaceBlock surface{};
+};
+
 struct FrameView
 {
     CameraView camera;
@@ -77,7 +88,8 @@ struct FrameView
     std::vector<StaticDraw> statics;
     std::vector<CharacterDraw> characters;
     std::vector<AreaLightDraw> areaLights;
-    std::vector<OccluderDraw> occluders; // none without a light
+    std::vector<OccluderDraw> occluders;   // none without a light
+    std::vector<FieldStepDraw> fieldSteps; // field by field, in order
     std::vector<mat4> joints;
     std::vector<float> morphWeights;
     Knobs knobs;
@@ -110,6 +122,7 @@ struct FrameView
         characters.clear();
         areaLights.clear();
         occluders.clear();
+        fieldSteps.clear();
         joints.clear();
         morphWeights.clear();
     }

@@ -15,6 +15,7 @@ constexpr gpu::Format kNormalFormat = gpu::Format::Rgba16Snorm;
 constexpr gpu::Format kAlbedoFormat = gpu::Format::Rgba8Srgb;
 constexpr gpu::Format kIrradianceFormat = gpu::Format::Rgba16Float;
 constexpr gpu::Format kMaterialFormat = gpu::Format::Rgba8Unorm;
+constexpr gpu::Format kStepsFormat = gpu::Format::Rgba16Float;
 
 gpu::Pipeline makePipeline(gpu::Device& device, std::span<const gpu::ShaderDefine> defines, bool keepsMaterial)
 {
@@ -99,6 +100,17 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
     std::ranges::sort(draws_);
 }
 
+const gpu::Pipeline& GBufferSystem::fieldPipeline(const FrameView& view, bool keepsSteps)
+{
+    std::vector formats{kNormalFormat, kAlbedoFormat, kIrradianceFormat};
+    if (keepsMaterial_)
+        formats.push_back(kMaterialFormat);
+    if (keepsSteps)
+        formats.push_back(kStepsFormat);
+    const std::string_view firstTerm = !view.hasEnvironment() ? "DARK" : view.shownBake() != nullptr ? "LOCAL_LIGHT" : "";
+    return fields_.pipelineFor({firstTerm, formats, gpu::Format::Depth32Float, keepsMaterial_, keepsSteps});
+}
+
 bool GBufferSystem::isGlossy(const FrameView& view, const GpuScene& scene)
 {
     const auto reflects = [&](const auto& draw) {
@@ -106,11 +118,13 @@ bool GBufferSystem::isGlossy(const FrameView& view, const GpuScene& scene)
             return material.block.specular > 0 || material.block.metallic > 0;
         });
     };
-    return !view.areaLights.empty() && (std::ranges::any_of(view.statics, reflects) || std::ranges::any_of(view.characters, reflects));
+    const auto fieldReflects = [](const FieldStepDraw& draw) { return draw.surface.specular > 0 || draw.surface.metallic > 0; };
+    return !view.areaLights.empty() && (std::ranges::any_of(view.statics, reflects) || std::ranges::any_of(view.characters, reflects) ||
+                                        std::ranges::any_of(view.fieldSteps, fieldReflects));
 }
 
-GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
-                               const Posed& posed, uvec2 extent, bool isKept)
+GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                               const FieldFrame& fields, const Baked& baked, const Posed& posed, uvec2 extent, Kept kept)
 {
     keepsMaterial_ = isGlossy(view, scene);
     if (baked) {
@@ -130,7 +144,7 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     GBuffer g;
     g.depth = pass.create("depth", {.format = gpu::Format::Depth32Float, .extent = extent, .clear = vec4{0}}, Use::DepthAttachment);
     // Passes ask the depth first, so that only who looks at the images themselves needs something where nothing is.
-    const std::optional<vec4> blank = isKept ? std::optional(vec4{0}) : std::nullopt;
+    const std::optional<vec4> blank = kept.all ? std::optional(vec4{0}) : std::nullopt;
     const auto create = [&](std::string_view name, gpu::Format format) {
         return pass.create(name, {.format = format, .extent = extent, .clear = blank}, Use::ColorAttachment);
     };
@@ -139,8 +153,14 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     g.unshadowed = create("unshadowed", kIrradianceFormat);
     if (keepsMaterial_)
         g.material = create("material", kMaterialFormat);
+    const bool keepsSteps = kept.steps && fields;
+    if (keepsSteps)
+        g.steps = create("steps", kStepsFormat);
+    const gpu::Pipeline* fieldPipeline = fields ? &this->fieldPipeline(view, keepsSteps) : nullptr;
 
-    pass.record([this, &view, &scene, frame](graph::Recorder& recorder) {
+    pass.record([this, &view, &scene, frame, fields, fieldPipeline](graph::Recorder& recorder) {
+        if (fieldPipeline != nullptr) // first: what they hide is not shaded
+            Fields::draw(recorder, *fieldPipeline, fields, frame);
         const auto draw = [&](const Draw& each, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,
                               const gpu::Buffer& normals, uint32_t flags) {
             const Cluster& triangles = model.clusters[each.cluster];

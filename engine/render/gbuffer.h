@@ -2,6 +2,7 @@
 #pragma once
 
 #include "graph/executor.h"
+#include "render/fields.h"
 #include "render/frame_blocks.h"
 #include "render/gpu_scene.h"
 #include "render/posing.h"
@@ -19,16 +20,24 @@ struct GBuffer
     graph::ImageRef albedo;     // a: 1 for what moves
     graph::ImageRef unshadowed; // first term of the irradiance, W/m^2; a: roughness
     graph::ImageRef material;   // roughness, metallic, specular: where light is reflected by them
+    graph::ImageRef steps;      // through distance fields to where they are seen; where they are asked for
 };
 
 class GBufferSystem
 {
 public:
-    explicit GBufferSystem(gpu::Device& device) : device_(&device) {}
+    explicit GBufferSystem(gpu::Device& device) : device_(&device), fields_(device) {}
 
-    /// Where nothing is, images other than the depth hold zero if they are kept, else anything.
-    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
-                    const Posed& posed, uvec2 extent, bool isKept);
+    /// What is asked for beside what passes read.
+    struct Kept
+    {
+        bool all = false;   // where nothing is, images other than the depth hold zero, else anything
+        bool steps = false; // GBuffer::steps
+    };
+    GBuffer declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const FieldFrame& fields,
+                    const Baked& baked, const Posed& posed, uvec2 extent, Kept kept);
+    /// The frame's distance fields; before declare().
+    FieldFrame writeFields(const FrameView& view) { return fields_.write(view); }
 
     /// Whether an area light is reflected by something that is not purely diffuse.
     static bool isGlossy(const FrameView& view, const GpuScene& scene);
@@ -56,7 +65,10 @@ private:
     void listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent);
     [[nodiscard]] const gpu::Pipeline& pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material);
 
+    const gpu::Pipeline& fieldPipeline(const FrameView& view, bool keepsSteps);
+
     gpu::Device* device_;
+    Fields fields_;
     std::array<std::array<MaterialPipelines, 2>, 4> pipelines_; // by FirstTerm and whether materials are kept, made when first asked for
     bool keepsMaterial_ = false;                                // of the frame that is declared
     std::vector<Draw> draws_;                                   // of the frame that is declared, nearest first

@@ -40,6 +40,12 @@ constexpr KnobChoice kLightShadows[] = {
     choice("traced", scene::LightShadow::Traced),
     choice("reference", scene::LightShadow::Reference),
 };
+constexpr KnobChoice kFieldShadows[] = {
+    choice("none", FieldShadow::None),           choice("quilez", FieldShadow::Quilez),      choice("aaltonen", FieldShadow::Aaltonen),
+    choice("cone", FieldShadow::Cone),           choice("sub-cones", FieldShadow::SubCones), choice("traced", FieldShadow::Traced),
+    choice("reference", FieldShadow::Reference),
+};
+constexpr KnobChoice kFieldCones[] = {{"1", 1}, {"4", 4}, {"7", 7}, {"16", 16}};
 constexpr KnobChoice kGalleryLights[] = {choice("plane", GalleryLight::Plane), choice("cylinder", GalleryLight::Cylinder),
                                          choice("cone", GalleryLight::Cone)};
 constexpr KnobChoice kGalleryOccluders[] = {choice("cube", GalleryOccluder::Cube), choice("icosphere", GalleryOccluder::Icosphere),
@@ -119,6 +125,7 @@ using Reference = ReferenceKnobs;
 constexpr auto kOcclusion = &Knobs::occlusion;
 constexpr auto kPrt = &Knobs::prt;
 constexpr auto kArea = &Knobs::area;
+constexpr auto kSdf = &Knobs::sdf;
 constexpr auto kGallery = &Knobs::gallery;
 
 constexpr KnobDescription kTable[] = {
@@ -144,6 +151,10 @@ constexpr KnobDescription kTable[] = {
     knob<kArea, &Area::scale>("area.scale", kScales, "resolution of area light along each axis, as a share of the frame's"),
     knob<kArea, &Area::pieces>("area.pieces", {1, 4096, 1}, "polygons of light a pixel and light; the rest of its shadow is sampled"),
     knob<kArea, &Area::rays>("area.rays", {1, 4096, 1}, "shadow rays a pixel and light, where it is traced"),
+    knob<kSdf, &SdfKnobs::shadow>("sdf.shadow", kFieldShadows, "how distance fields shadow area lights"),
+    knob<kSdf, &SdfKnobs::epsilon>("sdf.epsilon", {0.01, 1, 0}, "share of a cone's width that a step of sdf.shadow=cone may go past"),
+    knob<kSdf, &SdfKnobs::cones>("sdf.cones", kFieldCones, "cones a sphere light of sdf.shadow=sub-cones"),
+    knob<kSdf, &SdfKnobs::cells>("sdf.cells", {1, 64, 1}, "parts of a light of another shape, each with a cone of its own"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
     knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),
     atLoading(knob<kGallery, &Gallery::light>("gallery.light", kGalleryLights, "what shines in the gallery")),

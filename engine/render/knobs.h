@@ -47,6 +47,16 @@ struct AreaKnobs
     uint32_t rays = 16;
 };
 
+enum class FieldShadow { None, Quilez, Aaltonen, Cone, SubCones, Traced, Reference };
+
+struct SdfKnobs
+{
+    FieldShadow shadow = FieldShadow::SubCones;
+    float epsilon = 0.1f;
+    uint32_t cones = 7;
+    uint32_t cells = 8;
+};
+
 struct ReferenceKnobs
 {
     uint32_t samples = 0;
@@ -74,6 +84,7 @@ struct Knobs
     OcclusionKnobs occlusion;
     PrtKnobs prt;
     AreaKnobs area;
+    SdfKnobs sdf;
     ReferenceKnobs reference;
     CrowdKnobs crowd;
     GalleryKnobs gallery;

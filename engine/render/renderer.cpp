@@ -14,8 +14,8 @@ namespace {
 using graph::ImageRef;
 using graph::Use;
 
-constexpr std::array<std::string_view, kAovCount> kAovNames{"color",  "irradiance", "unshadowed", "occluded",
-                                                            "albedo", "normal",     "depth",      "cones"};
+constexpr std::array<std::string_view, kAovCount> kAovNames{"color",  "irradiance", "unshadowed", "occluded", "albedo",
+                                                            "normal", "depth",      "cones",      "steps"};
 
 gpu::Image makePicture(gpu::Device& device, uvec2 extent)
 {
@@ -152,10 +152,12 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
 
     const Baked baked = prt_.declare(graph_, view, frame, blocks_.newest());
     const Posed posed = posing_.declare(graph_, view, scene_);
-    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, baked, posed, extent(), captures_ != 0);
+    const FieldFrame fields = gbuffer_.writeFields(view);
+    const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, fields, baked, posed, extent(),
+                                       {.all = captures_ != 0, .steps = isCaptured(Aov::Steps)});
     const Traced traced = occlusion_.declare(graph_, view, frame, scene_, baked, g, posed, counters);
     const ImageRef reference = reference_.declare(graph_, view, frame, scene_, baked, g, posed);
-    const AreaLit lit = areaLights_.declare(graph_, view, frame, scene_, g, posed, counters);
+    const AreaLit lit = areaLights_.declare(graph_, view, frame, scene_, fields, g, posed, counters);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});
     const Kept kept{.color = isCaptured(Aov::Color),
@@ -172,6 +174,7 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     declareCapture(Aov::Normal, g.normals);
     declareCapture(Aov::Depth, g.depth);
     declareCapture(Aov::Cones, composed.occluded);
+    declareCapture(Aov::Steps, g.steps);
     counters_.declareReadback(graph_, counters);
     graph_.output(picture, Use::TransferRead);
     if (window != nullptr)
@@ -213,7 +216,7 @@ scene::ImageF Renderer::captured(Aov aov)
 {
     device_->waitIdle();
     const Readback& readback = readbacks_[static_cast<uint32_t>(aov)];
-    const uint32_t channels = aov == Aov::Depth || aov == Aov::Cones ? 1 : 3;
+    const uint32_t channels = aov == Aov::Depth || aov == Aov::Cones || aov == Aov::Steps ? 1 : 3;
     if (!readback.buffer) // nothing of the kind in the frame: no character, nothing occluded
         return {extent().x, extent().y, channels, std::vector<float>(size_t{channels} * extent().x * extent().y, 0.0f)};
     scene::ImageF image{readback.extent.x, readback.extent.y, channels, {}};
@@ -223,6 +226,8 @@ scene::ImageF Renderer::captured(Aov aov)
         const vec3 shown = aov == Aov::Normal ? unitFromOctahedral({value.z, value.w}) : vec3(value);
         if (aov == Aov::Depth)
             image.values.push_back(value.x > 0 ? nearMetres_ / value.x : 0.0f);
+        else if (aov == Aov::Steps)
+            image.values.push_back(value.x);
         else if (aov == Aov::Cones)
             image.values.push_back(value.w);
         else

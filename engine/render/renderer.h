@@ -18,9 +18,9 @@
 
 namespace antumbra::render {
 
-/// What can be read back beside the picture (DESIGN.md, Commands). Units: W/(m^2 sr), W/m^2, metres, cones a pixel.
-enum class Aov { Color, Irradiance, Unshadowed, Occluded, Albedo, Normal, Depth, Cones };
-inline constexpr uint32_t kAovCount = 8;
+/// What can be read back beside the picture (DESIGN.md, Commands). Units: W/(m^2 sr), W/m^2, metres, cones and steps a pixel.
+enum class Aov { Color, Irradiance, Unshadowed, Occluded, Albedo, Normal, Depth, Cones, Steps };
+inline constexpr uint32_t kAovCount = 9;
 
 std::optional<Aov> aovOf(std::string_view name);
 

@@ -160,6 +160,14 @@ void addOrbit(ecs::World& world, ecs::Entity made, const SceneEntity& entity)
     world.add(made, orbit);
 }
 
+void addSDFMaterial(ecs::World& world, ecs::Entity made, const SceneEntity& entity)
+{
+    if (!entity.sdfPrimitive)
+        return;
+    const Material material = entity.material.value_or(Material{});
+    world.add(made, SDFMaterial{material.albedo, material.roughness, material.metallic, material.specular});
+}
+
 /// One entity for each of the scene's, in their order.
 std::vector<ecs::Entity> addEntities(ecs::World& world, Assets& assets, const SceneFile& scene)
 {
@@ -181,6 +189,7 @@ std::vector<ecs::Entity> addEntities(ecs::World& world, Assets& assets, const Sc
         addOrbit(world, made[i], entity);
         addWherePresent(world, made[i], entity.occluder);
         addWherePresent(world, made[i], entity.sdfPrimitive);
+        addSDFMaterial(world, made[i], entity);
         if (entity.mesh.kind == MeshKind::None)
             continue;
         const uint32_t model = models.indexOf(entity);

@@ -24,11 +24,13 @@ constexpr Words<LightShadow, 8> kLightShadows{{{"none", LightShadow::None},
                                                {"two-sided", LightShadow::TwoSided},
                                                {"reference", LightShadow::Reference}}};
 constexpr Words<OccluderShape, 2> kOccluderShapes{{{"hulls", OccluderShape::Hulls}, {"triangles", OccluderShape::Triangles}}};
-constexpr Words<SDFShape, 6> kSDFShapes{{{"sphere", SDFShape::Sphere},
+constexpr Words<SDFShape, 8> kSDFShapes{{{"sphere", SDFShape::Sphere},
                                          {"box", SDFShape::Box},
                                          {"rounded_box", SDFShape::RoundedBox},
                                          {"torus", SDFShape::Torus},
                                          {"capsule", SDFShape::Capsule},
+                                         {"cylinder", SDFShape::Cylinder},
+                                         {"cone", SDFShape::Cone},
                                          {"plane", SDFShape::Plane}}};
 constexpr Words<SDFOperation, 4> kSDFOperations{{{"union", SDFOperation::Union},
                                                  {"subtract", SDFOperation::Subtract},
@@ -110,7 +112,7 @@ void readLightShape(const JsonObject& part, AreaLight& light)
     }
 }
 
-/// Parameters are called as in ../shared/golden/README.md.
+/// Parameters are called as in ../shared/golden/README.md; cylinders and cones are centred, and a cone narrows along its axis.
 void readSDFShape(const JsonObject& part, SDFPrimitive& primitive)
 {
     const auto allow = [&](std::initializer_list<std::string_view> keys) {
@@ -147,6 +149,21 @@ void readSDFShape(const JsonObject& part, SDFPrimitive& primitive)
         readCentre("a");
         primitive.end = part.vector("b", primitive.end, kAnyLength);
         readRadius("radius");
+        break;
+    case SDFShape::Cylinder:
+        allow({"center", "axis", "radius", "height"});
+        readCentre("center");
+        primitive.direction = part.direction("axis", primitive.direction);
+        readRadius("radius");
+        primitive.height = part.number("height", primitive.height, kPositiveLength);
+        break;
+    case SDFShape::Cone:
+        allow({"center", "axis", "radius", "top_radius", "height"});
+        readCentre("center");
+        primitive.direction = part.direction("axis", primitive.direction);
+        readRadius("radius");
+        primitive.minorRadius = part.number("top_radius", 0, {0, kPositiveLength.greatest});
+        primitive.height = part.number("height", primitive.height, kPositiveLength);
         break;
     case SDFShape::Plane:
         allow({"normal", "offset"});

@@ -52,24 +52,34 @@ struct OccluderBodies
     uint32_t count = 0;
 };
 
-enum class SDFShape { Sphere, Box, RoundedBox, Torus, Capsule, Plane };
+enum class SDFShape { Sphere, Box, RoundedBox, Torus, Capsule, Cylinder, Cone, Plane };
 enum class SDFOperation { Union, Subtract, Intersect, SmoothUnion };
 
 /// One step in making the distance field `field`: steps run by `order`, equal ones as the scene lists them.
 struct SDFPrimitive
 {
     SDFShape shape = SDFShape::Sphere;
-    vec3 centre{0};          // Capsule: one end
-    vec3 end{0};             // Capsule: the other
-    vec3 halfExtent{0.5f};   // Box, RoundedBox (without its rounding)
-    vec3 direction{0, 1, 0}; // unit; Torus: axis, Plane: normal
-    float radius = 0.5f;     // Sphere, Capsule, RoundedBox: rounding, Torus: major
-    float minorRadius = 0.1f;
-    float offset = 0; // Plane: along the normal
+    vec3 centre{0};           // Capsule: one end
+    vec3 end{0};              // Capsule: the other
+    vec3 halfExtent{0.5f};    // Box, RoundedBox (without its rounding)
+    vec3 direction{0, 1, 0};  // unit; Torus, Cylinder, Cone: axis, Plane: normal
+    float radius = 0.5f;      // Sphere, Capsule, Cylinder, RoundedBox: rounding, Torus: major, Cone: where the axis comes from
+    float minorRadius = 0.1f; // Torus; Cone: where the axis goes
+    float height = 1;         // Cylinder, Cone: along the axis, centred
+    float offset = 0;         // Plane: along the normal
     SDFOperation operation = SDFOperation::Union;
     float blend = 0; // SmoothUnion: k
     int32_t order = 0;
     uint32_t field = 0; // into SceneFile::fields
+};
+
+/// What light does on an SDFPrimitive's surface; melted ones mix theirs.
+struct SDFMaterial
+{
+    vec3 albedo{0.8f}; // linear
+    float roughness = 1;
+    float metallic = 0;
+    float specular = 1; // scale of the dielectric reflection; 0: pure Lambert
 };
 
 } // namespace antumbra::scene

@@ -14,6 +14,7 @@ struct CounterBlock
     uint negativePixels;
     uint fallbackPixels;
     uint pieces;
+    uint fieldEvaluations;
 };
 
 const uint kViewFinal = 0u;

@@ -137,6 +137,8 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
     for (const graph::ImageRef image : {g.depth, g.normals, g.albedo, g.material, before.diffuse, before.specular})
         if (image)
             pass.read(image, Use::Sampled);
+    if (frame.seenPastFields)
+        pass.read(frame.seenPastFields, Use::StorageRead);
     const bool isTraced = traces(range.shadow);
     if (isTraced)
         pass.read(frame.posed->scene, frame.posed->sceneUse);
@@ -146,7 +148,7 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
                                              : pipelineFor({range.shadow, frame.isGlossy, RayBackend::Auto, rounded(bodies_.sizes())});
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
     pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range,
-                 before, made, counters, traced, rays, frameIndex, scale,
+                 before, made, counters, traced, rays, frameIndex, scale, seen = frame.seenPastFields,
                  mostPieces = frame.view->knobs.area.pieces](graph::Recorder& recorder) {
         const auto sampled = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNothingBefore; };
         recorder.dispatch(pipeline,
@@ -154,6 +156,7 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
                                             .tiles = tiles ? recorder.address(tiles) : 0,
                                             .counters = recorder.address(counters),
                                             .scene = traced,
+                                            .seenPastFields = seen ? recorder.address(seen) : 0,
                                             .frame = slot,
                                             .depth = recorder.sampled(g.depth),
                                             .normals = recorder.sampled(g.normals),
@@ -243,11 +246,12 @@ void AreaLightSystem::skipAll(graph::FrameGraph& graph)
 {
     for (const std::string_view pass : {"area tiles", "area analytic", "area unshadowed", "area traced", "area reference", "area upsample"})
         graph.skip(pass, "no AreaLight in the scene");
+    FieldShadowSystem::skip(graph, "no AreaLight in the scene");
     prepareTables(false);
 }
 
-AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t slot, const GpuScene& scene, const GBuffer& g,
-                                 const Posed& posed, graph::BufferRef& counters)
+AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t slot, const GpuScene& scene,
+                                 const FieldFrame& fields, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     hasReference_ = false;
     if (view.areaLights.empty()) {
@@ -261,10 +265,14 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                 .posed = &posed,
                 .area = bodies_.write(view, tileCount.x),
                 .tiles = {},
+                .seenPastFields = {},
                 .slot = slot,
                 .scale = view.hasReferenceLights() ? Scale::Full : view.knobs.area.scale,
                 .isGlossy = static_cast<bool>(g.material)};
     prepareTables(frame.isGlossy);
+    const auto scale = static_cast<uint32_t>(frame.scale);
+    const LitPixels pixels{.extent = (graph.extent(g.depth) + scale - 1u) / scale, .scale = scale};
+    frame.seenPastFields = fieldShadows_.declare(graph, view, slot, fields, g, frame.area, bodies_.lightCount(), pixels, counters);
     AreaLit lit;
     for (const AreaLightRange& range : bodies_.ranges()) {
         if (range.shadow == LightShadow::Analytic)

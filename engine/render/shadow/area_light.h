@@ -5,6 +5,7 @@
 
 #include "render/gbuffer.h"
 #include "render/shadow/area_bodies.h"
+#include "render/shadow/sdf.h"
 
 #include <array>
 #include <deque>
@@ -22,10 +23,10 @@ struct AreaLit
 class AreaLightSystem
 {
 public:
-    AreaLightSystem(gpu::Device& device, const scene::Assets& assets) : device_(&device), bodies_(device, assets) {}
+    AreaLightSystem(gpu::Device& device, const scene::Assets& assets) : device_(&device), bodies_(device, assets), fieldShadows_(device) {}
 
-    AreaLit declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                    const Posed& posed, graph::BufferRef& counters);
+    AreaLit declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const FieldFrame& fields,
+                    const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
     /// Points a light and pixel that the reference has accumulated for the view as it stands; none where no light is shadowed by it.
     [[nodiscard]] std::optional<uint32_t> referenceSamples() const;
 
@@ -54,6 +55,7 @@ private:
         const Posed* posed;
         VkDeviceAddress area;
         graph::BufferRef tiles;
+        graph::BufferRef seenPastFields;
         uint32_t slot; // of the FrameBlock
         Scale scale;
         bool isGlossy;
@@ -72,6 +74,7 @@ private:
 
     gpu::Device* device_;
     AreaBodies bodies_;
+    FieldShadowSystem fieldShadows_;
     std::deque<Made> pipelines_; // each made when first asked for; passes hold on to those made before
     gpu::Pipeline tiles_;
     std::array<gpu::Pipeline, 2> upsample_; // by whether glossy

@@ -1,0 +1,30 @@
+// Signed distance fields as the device evaluates them, step by step, and the same on the CPU in double. Sees no frame and no device.
+#pragma once
+
+#include "render/shader_structs.h"
+#include "scene/shadow_components.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include <optional>
+#include <span>
+
+namespace antumbra::render {
+
+/// The primitive in its place, without flags. Nothing where a parameter is not finite or `world` flattens it.
+std::optional<shader::FieldStepBlock> fieldStep(const scene::SDFPrimitive& primitive, const mat4& world);
+
+/// Metres from `point` to the nearest surface, negative inside a solid, never more than that; as shaders/lib/field.glsl has it.
+/// Shapes under transforms that stretch unevenly, and what is cut or melted, come out nearer than they are.
+double fieldDistance(std::span<const shader::FieldStepBlock> steps, const glm::dvec3& point);
+
+/// Holds the step's shape, in the world. A plane's radius is kFieldUnbounded.
+struct FieldBound
+{
+    vec3 centre{0};
+    float radius = 0; // metres
+};
+inline constexpr float kFieldUnbounded = 1e9f;
+FieldBound boundOf(const shader::FieldStepBlock& step);
+
+} // namespace antumbra::render

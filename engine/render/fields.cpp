@@ -1,0 +1,82 @@
+#include "render/fields.h"
+
+#include "render/field_steps.h"
+#include "render/frame_copy.h"
+
+#include <algorithm>
+
+namespace antumbra::render {
+
+namespace {
+
+constexpr float kFarthestSeen = 1e4f; // metres from the eye, of what has no end
+
+/// A box about what the step adds; an empty one where it only takes away.
+void addBox(FieldFrame& fields, const shader::FieldStepBlock& step, vec3 eye)
+{
+    if (step.operation == shader::kFieldSubtract || step.operation == shader::kFieldIntersect)
+        return;
+    const FieldBound bound = boundOf(step);
+    const bool isBounded = bound.radius < kFieldUnbounded;
+    const vec3 centre = isBounded ? bound.centre : eye;
+    const vec3 reach(isBounded ? bound.radius + step.blend : kFarthestSeen);
+    fields.lowest = glm::min(fields.lowest, centre - reach);
+    fields.highest = glm::max(fields.highest, centre + reach);
+}
+
+} // namespace
+
+FieldFrame Fields::write(const FrameView& view)
+{
+    if (view.fieldSteps.empty())
+        return {};
+    steps_.clear();
+    surfaces_.clear();
+    FieldFrame fields{.lowest = vec3(1e30f), .highest = vec3(-1e30f)};
+    for (const FieldStepDraw& draw : view.fieldSteps) {
+        steps_.push_back(draw.step);
+        surfaces_.push_back(draw.surface);
+        addBox(fields, draw.step, view.camera.eye);
+    }
+    fields.steps = frameCopy(*device_, steps_);
+    fields.surfaces = frameCopy(*device_, surfaces_);
+    fields.count = static_cast<uint32_t>(steps_.size());
+    return fields;
+}
+
+const gpu::Pipeline& Fields::pipelineFor(const Look& look)
+{
+    const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
+        return made.firstTerm == look.firstTerm && made.keepsMaterial == look.keepsMaterial && made.keepsSteps == look.keepsSteps;
+    });
+    if (found != pipelines_.end())
+        return found->pipeline;
+    std::vector<gpu::ShaderDefine> defines;
+    if (!look.firstTerm.empty())
+        defines.push_back({look.firstTerm});
+    if (look.keepsMaterial)
+        defines.push_back({"KEEPS_MATERIAL"});
+    if (look.keepsSteps)
+        defines.push_back({"KEEPS_STEPS"});
+    pipelines_.push_back({look.firstTerm, look.keepsMaterial, look.keepsSteps,
+                          rasterPipeline(*device_, {.vertexShader = "sky.vert",
+                                                    .fragmentShader = "field.frag",
+                                                    .defines = defines,
+                                                    .colorFormats = look.colorFormats,
+                                                    .depthFormat = look.depthFormat})});
+    return pipelines_.back().pipeline;
+}
+
+void Fields::draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame)
+{
+    recorder.draw(pipeline,
+                  shader::FieldDraw{.steps = fields.steps,
+                                    .surfaces = fields.surfaces,
+                                    .lowest = fields.lowest,
+                                    .highest = fields.highest,
+                                    .stepCount = fields.count,
+                                    .frame = frame},
+                  3);
+}
+
+} // namespace antumbra::render

@@ -1,0 +1,61 @@
+// The signed distance fields of a frame on their way to the device, and what the camera sees of them. Absent without an SDFPrimitive.
+#pragma once
+
+#include "graph/executor.h"
+#include "render/frame_view.h"
+#include "render/gpu_scene.h"
+
+#include <deque>
+#include <vector>
+
+namespace antumbra::render {
+
+/// Where the frame's fields lie.
+struct FieldFrame
+{
+    VkDeviceAddress steps = 0;    // FieldStepBlock[count]
+    VkDeviceAddress surfaces = 0; // FieldSurfaceBlock[count]
+    uint32_t count = 0;
+    vec3 lowest{0}; // of a box about all that is solid; world
+    vec3 highest{0};
+
+    explicit operator bool() const { return count > 0; }
+};
+
+class Fields
+{
+public:
+    explicit Fields(gpu::Device& device) : device_(&device) {}
+
+    /// Between Device::beginFrame and endFrame. Keeps its memory.
+    FieldFrame write(const FrameView& view);
+
+    /// How fields are drawn into a G-buffer.
+    struct Look
+    {
+        std::string_view firstTerm; // a define of field.frag; empty: the environment's
+        std::span<const gpu::Format> colorFormats;
+        gpu::Format depthFormat;
+        bool keepsMaterial;
+        bool keepsSteps;
+    };
+    /// Made when first asked for.
+    const gpu::Pipeline& pipelineFor(const Look& look);
+    static void draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame);
+
+private:
+    struct Made
+    {
+        std::string_view firstTerm;
+        bool keepsMaterial;
+        bool keepsSteps;
+        gpu::Pipeline pipeline;
+    };
+
+    gpu::Device* device_;
+    std::vector<shader::FieldStepBlock> steps_;
+    std::vector<shader::FieldSurfaceBlock> surfaces_;
+    std::deque<Made> pipelines_;
+};
+
+} // namespace antumbra::render

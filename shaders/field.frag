@@ -1,0 +1,65 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindless.glsl"
+#include "lib/frame.glsl"
+#include "lib/half.glsl"
+#include "lib/surface.glsl"
+#include "lib/field.glsl"
+#include "lib/field_surface.glsl"
+#include "lib/first_term.glsl"
+
+// What the camera sees of signed distance fields, in the G-buffer among the meshes. Variants as of gbuffer.frag: LOCAL_LIGHT, DARK,
+// KEEPS_MATERIAL; KEEPS_STEPS where the steps of the way are asked for.
+layout(push_constant, scalar) uniform Push { FieldDraw pc; };
+
+layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
+layout(location = 1) out vec4 outAlbedo; // a: 1 for what moves
+layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
+#ifdef KEEPS_MATERIAL
+layout(location = 3) out vec4 outMaterial; // roughness, metallic, specular
+#endif
+#ifdef KEEPS_STEPS
+#ifdef KEEPS_MATERIAL
+layout(location = 4) out vec4 outSteps;
+#else
+layout(location = 3) out vec4 outSteps;
+#endif
+#endif
+
+// Where a ray is in the box; nowhere if its end comes before its beginning.
+vec2 wayInBox(vec3 origin, vec3 direction, vec3 lowest, vec3 highest)
+{
+    vec3 safe = mix(direction, vec3(1.0e-20), lessThan(abs(direction), vec3(1.0e-20)));
+    vec3 a = (lowest - origin) / safe, b = (highest - origin) / safe;
+    vec3 entries = min(a, b), exits = max(a, b);
+    return vec2(max(max(entries.x, entries.y), entries.z), min(min(exits.x, exits.y), exits.z));
+}
+
+void main()
+{
+    vec3 ray = fromEye(frameBlock, gl_FragCoord.xy, 1.0);
+    float metresADepth = length(ray);
+    vec3 direction = ray / metresADepth;
+    vec2 way = wayInBox(frameBlock.eye, direction, pc.lowest, pc.highest);
+    way.x = max(way.x, frameBlock.near * metresADepth);
+    float pixel = length(frameBlock.rayX) / metresADepth; // metres a metre of the way
+    Field field = Field(pc.steps, 0ul, 0u, pc.stepCount);
+    FieldHit hit = traceField(field, frameBlock.eye, direction, way.x, way.y, 0.1 * pixel);
+    vec3 position = frameBlock.eye + direction * max(hit.at, 0.0);
+    vec3 normal = fieldNormal(field, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5);
+    normal = dot(normal, direction) > 0.0 ? -normal : normal; // the side that is seen is the side that is lit
+    FieldSurfaceBlock surface = fieldSurface(field, pc.surfaces, position);
+
+    gl_FragDepth = hit.at > 0.0 ? clamp(frameBlock.near * metresADepth / hit.at, 0.0, 1.0) : 0.0;
+    outNormals = vec4(octahedralFromUnit(normal), octahedralFromUnit(normal));
+    outAlbedo = vec4(surface.albedo, 1.0);
+    outUnshadowed = vec4(withinHalf(firstTermAt(frameBlock, position, normal, gl_HelperInvocation)), surface.roughness);
+#ifdef KEEPS_MATERIAL
+    outMaterial = vec4(surface.roughness, surface.metallic, surface.specular, 0.0);
+#endif
+#ifdef KEEPS_STEPS
+    outSteps = vec4(float(hit.steps), 0.0, 0.0, 0.0);
+#endif
+    if (hit.at <= 0.0)
+        discard; // last, as quads share look-ups
+}

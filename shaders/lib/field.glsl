@@ -1,0 +1,101 @@
+// Signed distance to solids that are put together step by step (Hart 1996; golden/README.md, sdf.json). Nowhere does the distance change
+// faster than one looks for it: shapes are exact in their own space and scaled by the least of their stretches, and no operation adds to the
+// slope. So a ball of that radius is always clear, and what steps by it never goes through anything.
+#ifndef LIB_FIELD_GLSL
+#define LIB_FIELD_GLSL
+
+#include "shared/field.h"
+
+const float kFieldFar = 1.0e9; // metres: where there is nothing
+
+layout(buffer_reference, scalar) readonly buffer FieldSteps { FieldStepBlock step[]; };
+layout(buffer_reference, scalar) readonly buffer FieldSurfaces { FieldSurfaceBlock surface[]; };
+layout(buffer_reference, scalar) readonly buffer FieldLists { uint step[]; };
+
+// All steps [first, first + count), or those that a list of as many names.
+struct Field
+{
+    uint64_t steps; // FieldStepBlock[]
+    uint64_t list; // uint[]; null: none
+    uint first;
+    uint count;
+};
+
+uint fieldEvaluations = 0u; // so far
+
+float segmentDistance(vec3 p, float halfLength, float radius)
+{
+    p.y -= clamp(p.y, -halfLength, halfLength);
+    return length(p) - radius;
+}
+
+float boxDistance(vec3 p, vec3 halfEdges, float rounding)
+{
+    vec3 over = abs(p) - halfEdges;
+    return length(max(over, 0.0)) + min(max(over.x, max(over.y, over.z)), 0.0) - rounding;
+}
+
+float torusDistance(vec3 p, float major, float minor) { return length(vec2(length(p.xz) - major, p.y)) - minor; }
+
+// By its outline in the half plane through the axis: the slanted side and the nearer lid.
+float coneDistance(vec3 p, float below, float above, float halfHeight)
+{
+    vec2 at = vec2(length(p.xz), p.y);
+    vec2 side = vec2(above - below, 2.0 * halfHeight), fromBelow = at - vec2(below, -halfHeight);
+    vec2 toSide = fromBelow - side * clamp(dot(fromBelow, side) / max(dot(side, side), 1.0e-30), 0.0, 1.0);
+    vec2 toLid = vec2(max(at.x - (at.y < 0.0 ? below : above), 0.0), abs(at.y) - halfHeight);
+    bool isInside = toLid.y < 0.0 && fromBelow.x * side.y < side.x * fromBelow.y;
+    float distance2 = min(dot(toSide, toSide), dot(toLid, toLid));
+    return isInside ? -sqrt(distance2) : sqrt(distance2);
+}
+
+vec3 fieldLocal(FieldStepBlock s, vec3 p)
+{
+    return vec3(dot(s.localFromWorld[0].xyz, p) + s.localFromWorld[0].w, dot(s.localFromWorld[1].xyz, p) + s.localFromWorld[1].w,
+                dot(s.localFromWorld[2].xyz, p) + s.localFromWorld[2].w);
+}
+
+float fieldShape(FieldStepBlock s, vec3 p)
+{
+    vec3 local = fieldLocal(s, p);
+    switch (s.shape) {
+    case kFieldSegment: return s.scale * segmentDistance(local, s.size.x, s.size.y);
+    case kFieldBox: return s.scale * boxDistance(local, s.size.xyz, s.size.w);
+    case kFieldTorus: return s.scale * torusDistance(local, s.size.x, s.size.y);
+    case kFieldCone: return s.scale * coneDistance(local, s.size.x, s.size.y, s.size.z);
+    default: return s.scale * local.y;
+    }
+}
+
+// The quadratic smooth minimum: it melts where the distances differ by less than `blend`.
+float smoothUnion(float a, float b, float blend)
+{
+    float h = max(blend - abs(a - b), 0.0);
+    return min(a, b) - h * h / (4.0 * max(blend, 1.0e-9));
+}
+
+float fieldCombined(FieldStepBlock s, float before, float own)
+{
+    switch (s.operation) {
+    case kFieldUnion: return min(before, own);
+    case kFieldSubtract: return max(before, -own);
+    case kFieldIntersect: return max(before, own);
+    default: return smoothUnion(before, own, s.blend);
+    }
+}
+
+float fieldDistance(Field field, vec3 p)
+{
+    ++fieldEvaluations;
+    float whole = kFieldFar, so = kFieldFar;
+    for (uint i = 0u; i < field.count; ++i) {
+        uint index = field.list != 0ul ? FieldLists(field.list).step[i] : field.first + i;
+        FieldStepBlock s = FieldSteps(field.steps).step[index];
+        bool begins = (s.flags & kFieldBegins) != 0u;
+        whole = begins ? min(whole, so) : whole;
+        so = fieldCombined(s, begins ? kFieldFar : so, fieldShape(s, p));
+    }
+    return min(whole, so);
+}
+
+#endif

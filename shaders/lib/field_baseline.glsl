@@ -1,0 +1,70 @@
+// Earlier ways to a soft shadow from one march through a signed distance field, for comparison: Quilez 2010 with signed distances, Aaltonen's
+// improvement (2018), and the minimal tangent cone of Ban, Balint, Valasek 2020 (Algorithm 2, as corrected in methods/sdf-cones.md). All
+// take the occluder for one straight edge. Needs lib/field_cone.glsl.
+#ifndef LIB_FIELD_BASELINE_GLSL
+#define LIB_FIELD_BASELINE_GLSL
+
+// Share of a disc on one side of a line, nearly; `m` from -1 to 1.
+float smoothShare(float m)
+{
+    float x = 0.5 * clamp(m, -1.0, 1.0) + 0.5;
+    return x * x * (3.0 - 2.0 * x);
+}
+
+// The least angle, as a share of the light's, under which the field leaves the axis clear; into solids too, as distances have a sign.
+float quilezVisibility(Field field, vec3 p, vec3 centre, float radius)
+{
+    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    if (at.settled >= 0.0)
+        return at.settled;
+    float tangent = radius * inversesqrt(max(at.distanceLight * at.distanceLight - radius * radius, 1.0e-9));
+    float least = 1.0, t = 1.0e-3, end = at.distanceLight - radius;
+    for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
+        float f = fieldDistance(field, p + at.axis * t);
+        least = min(least, f / max(tangent * t, 1.0e-7));
+        t += clamp(abs(f), 0.002 * at.distanceLight, 0.1 * at.distanceLight);
+    }
+    return smoothShare(least);
+}
+
+// The same from outside only, so that half the penumbra is missing; the nearest point is guessed between two steps.
+float aaltonenVisibility(Field field, vec3 p, vec3 centre, float radius)
+{
+    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    if (at.settled >= 0.0)
+        return at.settled;
+    float cotangent = sqrt(max(at.distanceLight * at.distanceLight - radius * radius, 1.0e-9)) / max(radius, 1.0e-7);
+    float least = 1.0, t = 1.0e-3, before = 1.0e20, end = at.distanceLight - radius;
+    for (uint i = 0u; i < kFieldMarchSteps && t < end; ++i) {
+        float f = fieldDistance(field, p + at.axis * t);
+        if (f < 1.0e-4)
+            return 0.0;
+        float back = f * f / (2.0 * before), aside = sqrt(max(f * f - back * back, 0.0));
+        least = min(least, cotangent * aside / max(t - back, 1.0e-6));
+        before = f;
+        t += f;
+    }
+    return smoothShare(2.0 * clamp(least, 0.0, 1.0) - 1.0);
+}
+
+// A cone that shrinks to what is clear as it goes; no step goes past more than `tolerance` of its width.
+float coneVisibility(Field field, vec3 p, vec3 centre, float radius, float tolerance)
+{
+    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    if (at.settled >= 0.0)
+        return at.settled;
+    FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, max(kFieldLeastRadius, min(at.distance, 0.5 * radius)));
+    float least = 1.0, share = 1.0, t = 0.0, f = at.distance, end = at.distanceLight - radius;
+    for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
+        f = i > 0u ? fieldDistance(field, p + at.axis * t) : f;
+        float whole = radiusAt(cone, t);
+        if (f - share * whole < tolerance * whole) {
+            least = min(least, f / whole);
+            share = min(share, f / whole - tolerance);
+        }
+        t += max((f - share * whole) / (1.0 + share * cone.slope), 1.0e-5 + 1.0e-4 * t);
+    }
+    return smoothShare(least);
+}
+
+#endif

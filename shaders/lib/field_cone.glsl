@@ -1,0 +1,176 @@
+// How much of a sphere is seen past a signed distance field, by cones (Ban, Balint, Valasek 2020, as corrected in methods/sdf-cones.md).
+// The approximation: what a cone meets at its narrowest is taken for one straight edge. Needs lib/field.glsl.
+#ifndef LIB_FIELD_CONE_GLSL
+#define LIB_FIELD_CONE_GLSL
+
+#include "lib/hemisphere.glsl"
+
+const uint kFieldMarchSteps = 256u; // receivers that lights graze need that many
+const float kFieldLeastRadius = 1.0e-3; // metres, of a cone where it begins: one without width would never get on its way
+const uint kFieldMostCones = 16u;
+
+// Share of a cap that a plane through its apex leaves clear: `m` is the sine of the plane's angle to the axis as a share of `sine`, that of
+// the cap's half angle; 1 is clear. The disc's share where the cap is nearly flat, as differences of nearly equal angles say nothing there.
+float capCoverage(float m, float sine)
+{
+    m = clamp(m, -1.0, 1.0);
+    float side = sqrt(max((1.0 - m) * (1.0 + m), 0.0));
+    float disc = 0.5 + (m * side + atan(m, side)) / kPi;
+    if (sine < 0.05)
+        return clamp(disc, 0.0, 1.0);
+    float cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
+    float b = m * sine, cosineB = sqrt(max((1.0 - b) * (1.0 + b), 0.0));
+    float x = clamp(-b * cosine / max(cosineB * sine, 1.0e-20), -1.0, 1.0);
+    float angle = atan(sqrt(max((1.0 - x) * (1.0 + x), 0.0)), x);
+    float clear = (kPi - atan(side, m) - cosine * angle) / (kPi * max(1.0 - cosine, 1.0e-6));
+    return clamp(clear, 0.0, 1.0);
+}
+
+// From an apex towards a sphere: the radius of the ball that it holds grows by `slope` a metre.
+struct FieldCone
+{
+    vec3 apex;
+    vec3 axis; // unit
+    float radius; // at the apex, metres
+    float slope;
+};
+
+float radiusAt(FieldCone cone, float t) { return max(cone.radius + t * cone.slope, 1.0e-7); }
+
+struct FieldMarch
+{
+    float least; // of distance by radius, at most 1; -1 and less: no light comes through
+    float at; // metres along the axis, where that is
+    float distance; // there
+    vec2 span; // metres along the axis: before and behind it nothing reaches into the cone
+};
+
+// The least share of the cone's radius that is clear between `from` and `to`, to `tolerance`. Steps go past what is certain and are taken back
+// where two balls do not meet: the field between them cannot fall below (f + g - way) / 2 (a field that changes no faster than one goes).
+FieldMarch marchCone(Field field, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
+{
+    const float kRelaxed = 1.6;
+    float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t);
+    FieldMarch march = FieldMarch(min(ratio, 1.0), t, f, way);
+    float level = march.least - tolerance, relaxation = kRelaxed;
+    bool isMet = ratio < 1.0, isInside = isMet, isDone = t >= way.y || march.least <= -1.0;
+    for (uint i = 0u; i < kFieldMarchSteps && !isDone; ++i) {
+        float safe = max((f - level * radiusAt(cone, t)) / (1.0 + level * cone.slope), 1.0e-5 + 1.0e-4 * t);
+        isDone = t + safe >= way.y;
+        if (isDone)
+            break;
+        float next = min(t + relaxation * safe, way.y);
+        float g = fieldDistance(field, cone.apex + cone.axis * next);
+        float step = next - t, lower = 0.5 * (f + g - step), lowest = t + 0.5 * (f - g + step);
+        ratio = g / radiusAt(cone, next);
+        float nextLevel = min(level, max(ratio, -1.0) - tolerance);
+        bool isCertain = relaxation == 1.0 || lower >= nextLevel * radiusAt(cone, lowest);
+        if (ratio < march.least)
+            march = FieldMarch(ratio, next, g, march.span);
+        level = nextLevel;
+        isDone = march.least <= -1.0;
+        relaxation = isCertain ? kRelaxed : 1.0;
+        if (!isCertain)
+            continue;
+        bool isIn = ratio < 1.0;
+        march.span.x = isIn && !isMet ? t : march.span.x;
+        march.span.y = !isIn && isInside ? next : march.span.y;
+        isMet = isMet || isIn;
+        isInside = isIn;
+        t = next;
+        f = g;
+    }
+    march.span.y = isInside ? way.y : march.span.y;
+    return march;
+}
+
+// What every method settles before it divides: inside a solid all is dark, inside the light all is lit.
+struct FieldReceiver
+{
+    vec3 axis; // towards the light's centre, unit
+    float distanceLight; // metres, to its centre
+    float distance; // of the field
+    float settled; // the share that is seen where it is known already, else -1
+};
+
+FieldReceiver fieldReceiver(Field field, vec3 p, vec3 centre, float radius)
+{
+    vec3 to = centre - p;
+    float distanceLight = length(to), f = fieldDistance(field, p);
+    float settled = !(f > 0.0) ? 0.0 : distanceLight <= radius * (1.0 + 1.0e-6) ? 1.0 : -1.0;
+    return FieldReceiver(to / max(distanceLight, 1.0e-20), distanceLight, f, settled);
+}
+
+FieldCone coneToSphere(vec3 p, vec3 axis, float distanceLight, float radius, float radiusHere)
+{
+    return FieldCone(p, axis, radiusHere, min((radius - radiusHere) / distanceLight, 0.9999));
+}
+
+// Places and radii of the cones that share a disc, as shares of its radius.
+vec3 subConePlace(uint k, uint count)
+{
+    uint inMiddle = count == 4u ? 0u : 1u, ring = count - inMiddle;
+    float turn = kTau * (float(k - inMiddle) + 0.3) / float(max(ring, 1u));
+    float off = k < inMiddle ? 0.0 : count == 4u ? 0.6 : 0.7;
+    return vec3(off * cos(turn), off * sin(turn), inversesqrt(float(count)));
+}
+
+float subConeLeast[kFieldMostCones];
+float subConeAt[kFieldMostCones];
+float subConeDistance[kFieldMostCones];
+
+// How far a cone that is blocked in its middle is blocked: as deep as the solid reaches there, but where the distance in it levels off, in
+// what is thin, as far as to the nearest cone that is clear.
+float subConeDepth(Field field, FieldCone cone, uint k, uint count)
+{
+    float depth = -subConeLeast[k], most = 1.0;
+    vec3 place = subConePlace(k, count);
+    for (uint j = 0u; j < count; ++j) {
+        float apart = distance(place.xy, subConePlace(j, count).xy) / place.z;
+        most = subConeLeast[j] >= 0.0 ? min(most, apart - subConeLeast[j]) : most;
+    }
+    float nudge = 0.02 * radiusAt(cone, subConeAt[k]);
+    mat3 frame = tangentFrame(cone.axis);
+    vec2 slope = vec2(0.0);
+    for (int side = 0; side < 2; ++side)
+        slope[side] = (fieldDistance(field, cone.apex + cone.axis * subConeAt[k] + frame[side] * nudge) - subConeDistance[k]) / nudge;
+    return dot(slope, slope) > 0.8 * 0.8 ? depth : max(depth, most);
+}
+
+// The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
+float subConeVisibility(Field field, vec3 p, vec3 centre, float radius, uint count)
+{
+    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    float radiusHere = max(kFieldLeastRadius, min(at.distance, 0.5 * radius)), end = at.distanceLight - radius;
+    if (at.settled >= 0.0 || end <= 0.0)
+        return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
+    float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
+    mat3 frame = tangentFrame(at.axis);
+    FieldMarch whole = marchCone(field, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.2);
+    if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
+        return capCoverage(whole.least, sine);
+    for (uint k = 0u; k < count; ++k) {
+        vec3 place = subConePlace(k, count);
+        vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
+        FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
+        float first = whole.span.x > 0.0 ? fieldDistance(field, p + axis * whole.span.x) : at.distance;
+        FieldMarch part = marchCone(field, cone, whole.span, first, 0.4);
+        subConeLeast[k] = max(part.least, -1.0);
+        subConeAt[k] = part.at;
+        subConeDistance[k] = part.distance;
+    }
+    float seen = 0.0;
+    for (uint k = 0u; k < count; ++k) {
+        vec3 place = subConePlace(k, count);
+        float least = subConeLeast[k];
+        if (least < 0.0 && least > -1.0) {
+            vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
+            FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
+            least = -subConeDepth(field, cone, k, count);
+        }
+        seen += capCoverage(least, place.z * sine);
+    }
+    return seen / float(count);
+}
+
+#endif

@@ -1,0 +1,105 @@
+// Signed distance fields: solids put together step by step.
+#ifndef SHARED_FIELD_H
+#define SHARED_FIELD_H
+
+// Shapes that share a formula, in their own space: the centre at the origin, the axis along Y.
+const uint kFieldSegment = 0u; // sphere, capsule
+const uint kFieldBox = 1u; // box, rounded box
+const uint kFieldTorus = 2u;
+const uint kFieldCone = 3u; // cylinder, cone, frustum
+const uint kFieldPlane = 4u;
+
+const uint kFieldUnion = 0u;
+const uint kFieldSubtract = 1u;
+const uint kFieldIntersect = 2u;
+const uint kFieldSmoothUnion = 3u;
+
+// The first step of a field: what the steps before it made stands beside it.
+const uint kFieldBegins = 1u;
+
+// A step: a shape, and what becomes of the distance so far.
+struct FieldStepBlock
+{
+    vec4 localFromWorld[3]; // rows
+    vec4 size; // segment: half length, radius; box: half edges, rounding; torus: major, minor; cone: radius below, above, half height
+    float scale; // distances in the world are at least that many times local ones
+    float blend; // metres, of a smooth union
+    uint shape;
+    uint operation;
+    uint flags;
+};
+
+// What light does on a step's surface.
+struct FieldSurfaceBlock
+{
+    vec3 albedo; // linear
+    float roughness;
+    float metallic;
+    float specular;
+};
+
+// What the camera sees of all fields: push constants.
+struct FieldDraw
+{
+    uint64_t steps; // FieldStepBlock[stepCount]
+    uint64_t surfaces; // FieldSurfaceBlock[stepCount]
+    vec3 lowest; // of a box about all of it; world
+    vec3 highest;
+    uint stepCount;
+    uint frame; // slot of a FrameBlock
+};
+
+const uint kFieldQuilez = 0u;
+const uint kFieldAaltonen = 1u;
+const uint kFieldCone1 = 2u; // Ban et al., Algorithm 2
+const uint kFieldSubCones = 3u;
+
+const uint kFieldTraced = 4u;
+
+// Shares of area lights that are seen past all fields.
+struct FieldShade
+{
+    uint64_t area; // AreaBlock
+    uint64_t steps; // FieldStepBlock[stepCount]
+    uint64_t counters; // CounterBlock
+    uint64_t seen; // float[lightCount][pixels of the lit image], written
+    uint frame; // slot of a FrameBlock
+    uint depth;
+    uint normals;
+    uint stepCount;
+    uint cones;
+    uint cells;
+    uint rays;
+    float tolerance; // of kFieldCone1
+    int pixelScale; // of the lit image to the G-buffer: 1, 2, 4
+    uint litWidth; // pixels
+    uint litHeight;
+};
+
+struct FieldCase
+{
+    vec3 position;
+    vec3 centre; // of the light
+    float radius;
+    uint firstStep;
+    uint stepCount;
+};
+
+struct FieldAnswer
+{
+    float visibility;
+    uint evaluations;
+};
+
+struct EvalField
+{
+    uint64_t cases; // FieldCase[caseCount]
+    uint64_t steps; // FieldStepBlock[]
+    uint64_t answers; // FieldAnswer[caseCount], written
+    uint caseCount;
+    uint method;
+    uint cones; // of kFieldSubCones: 1, 4, 7, 16
+    float tolerance; // of kFieldCone1
+};
+
+#endif
