@@ -14,12 +14,11 @@ layout(local_size_x = 64) in;
 
 float visibilityOf(FieldCase at)
 {
-    Field field = Field(pc.steps, 0ul, at.firstStep, at.stepCount);
     switch (pc.method) {
-    case kFieldQuilez: return quilezVisibility(field, at.position, at.centre, at.radius);
-    case kFieldAaltonen: return aaltonenVisibility(field, at.position, at.centre, at.radius);
-    case kFieldCone1: return coneVisibility(field, at.position, at.centre, at.radius, pc.tolerance);
-    default: return subConeVisibility(field, at.position, at.centre, at.radius, pc.cones);
+    case kFieldQuilez: return quilezVisibility(at.fields, at.position, at.centre, at.radius);
+    case kFieldAaltonen: return aaltonenVisibility(at.fields, at.position, at.centre, at.radius);
+    case kFieldCone1: return coneVisibility(at.fields, at.position, at.centre, at.radius, pc.tolerance);
+    default: return subConeVisibility(at.fields, at.position, at.centre, at.radius, pc.cones);
     }
 }
 

@@ -43,14 +43,14 @@ void main()
     vec2 way = wayInBox(frameBlock.eye, direction, pc.lowest, pc.highest);
     way.x = max(way.x, frameBlock.near * metresADepth);
     float pixel = length(frameBlock.rayX) / metresADepth; // metres a metre of the way
-    Field field = Field(pc.steps, 0ul, 0u, pc.stepCount);
-    FieldHit hit = traceField(field, frameBlock.eye, direction, way.x, way.y, 0.1 * pixel);
+    FieldHit hit = traceField(pc.fields, frameBlock.eye, direction, way.x, way.y, 0.1 * pixel);
+    bool isHit = hit.at > 0.0;
     vec3 position = frameBlock.eye + direction * max(hit.at, 0.0);
-    vec3 normal = fieldNormal(field, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5);
+    vec3 normal = fieldNormal(pc.fields, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5, isHit);
     normal = dot(normal, direction) > 0.0 ? -normal : normal; // the side that is seen is the side that is lit
-    FieldSurfaceBlock surface = fieldSurface(field, pc.surfaces, position);
+    FieldSurfaceBlock surface = fieldSurface(pc.fields, position, isHit);
 
-    gl_FragDepth = hit.at > 0.0 ? clamp(frameBlock.near * metresADepth / hit.at, 0.0, 1.0) : 0.0;
+    gl_FragDepth = isHit ? clamp(frameBlock.near * metresADepth / hit.at, 0.0, 1.0) : 0.0;
     outNormals = vec4(octahedralFromUnit(normal), octahedralFromUnit(normal));
     outAlbedo = vec4(surface.albedo, 1.0);
     outUnshadowed = vec4(withinHalf(firstTermAt(frameBlock, position, normal, gl_HelperInvocation)), surface.roughness);
@@ -60,6 +60,6 @@ void main()
 #ifdef KEEPS_STEPS
     outSteps = vec4(float(hit.steps), 0.0, 0.0, 0.0);
 #endif
-    if (hit.at <= 0.0)
+    if (!isHit)
         discard; // last, as quads share look-ups
 }

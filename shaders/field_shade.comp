@@ -25,16 +25,16 @@ layout(push_constant, scalar) uniform Push { FieldShade pc; };
 
 layout(local_size_x = kAreaGroupWidth, local_size_y = kAreaGroupHeight) in;
 
-float seenOf(Field field, vec3 position, vec3 centre, float radius)
+float seenOf(vec3 position, vec3 centre, float radius)
 {
 #if METHOD == 0
-    return quilezVisibility(field, position, centre, radius);
+    return quilezVisibility(pc.fields, position, centre, radius);
 #elif METHOD == 1
-    return aaltonenVisibility(field, position, centre, radius);
+    return aaltonenVisibility(pc.fields, position, centre, radius);
 #elif METHOD == 2
-    return coneVisibility(field, position, centre, radius, pc.tolerance);
+    return coneVisibility(pc.fields, position, centre, radius, pc.tolerance);
 #else
-    return subConeVisibility(field, position, centre, radius, pc.cones);
+    return subConeVisibility(pc.fields, position, centre, radius, pc.cones);
 #endif
 }
 
@@ -48,14 +48,16 @@ void main()
     AreaBlock area = Areas(pc.area).block;
     vec3 position = worldPosition(frameBlock, vec2(pixel) + 0.5, max(depth, 1.0e-9));
     vec4 octahedral = texelFetch(sampledImages[pc.normals], pixel, 0);
+    vec3 shading = unitFromOctahedral(octahedral.zw);
     // Off the surface by half the pixel's width too: cones would creep along what they start on.
     vec3 normal = unitFromOctahedral(octahedral.xy);
     float width = length(frameBlock.rayX) * frameBlock.near / max(depth, 1.0e-9);
     vec3 origin = rayOrigin(position, normal, frameBlock.eye) + 0.5 * width * normal;
-    Field field = Field(pc.steps, 0ul, 0u, depth > 0.0 ? pc.stepCount : 0u);
     for (uint i = 0u; i < area.lightCount; ++i) {
         BodyBlock light = Bodies(area.arrays.bodies).body[Lights(area.lights).block[i].body];
-        float seen = seenOf(field, origin, light.centre, light.radius);
+        // What faces away from all of the light is not lit whatever stands between.
+        bool isFacing = depth > 0.0 && dot(shading, light.centre - origin) > -light.radius;
+        float seen = isFacing ? seenOf(origin, light.centre, light.radius) : 0.0;
         if (isInside)
             Seen(pc.seen).share[(i * pc.litHeight + litPixel.y) * pc.litWidth + litPixel.x] = seen;
     }

@@ -29,14 +29,23 @@ scene::SDFPrimitive primitiveOf(const scene::JsonObject& from, const json& value
     return scene::readSDFPrimitive(scene::JsonObject(renamed, file, "scene"), fields);
 }
 
-shader::FieldCase deviceCase(const EvalCase& each, std::vector<shader::FieldStepBlock>& steps)
+/// What the device reads beside the cases.
+struct FieldBlocks
+{
+    std::vector<shader::FieldStepBlock> steps;
+    std::vector<shader::FieldGroupBlock> groups;
+};
+
+/// Its groups are an offset until they are on the device.
+shader::FieldCase deviceCase(const EvalCase& each, FieldBlocks& blocks)
 {
     const EvalSphere light = sphereOf(each.object.object("light"));
     shader::FieldCase made{.position = each.vector("p"),
                            .centre = light.centre,
                            .radius = light.radius,
-                           .firstStep = static_cast<uint32_t>(steps.size()),
-                           .stepCount = 0};
+                           .fields = {.groups = blocks.groups.size() * sizeof(shader::FieldGroupBlock)}};
+    std::vector<shader::FieldStepBlock> steps;
+    std::vector<shader::FieldGroupBlock> groups;
     const std::vector<scene::JsonObject> primitives = each.object.objects("scene");
     for (size_t i = 0; i < primitives.size(); ++i) {
         auto step = render::fieldStep(primitiveOf(primitives[i], each.value["scene"][i], each.file), mat4{1});
@@ -44,8 +53,15 @@ shader::FieldCase deviceCase(const EvalCase& each, std::vector<shader::FieldStep
             primitives[i].refuse("", "has no shape: a parameter is not finite");
         step->flags = i == 0 ? shader::kFieldBegins : 0u;
         steps.push_back(*step);
-        ++made.stepCount;
     }
+    render::writeGroups(steps, groups);
+    made.fields.groupCount = static_cast<uint32_t>(groups.size());
+    for (shader::FieldGroupBlock& group : groups) {
+        group.firstStep += static_cast<uint32_t>(blocks.steps.size());
+        group.endStep += static_cast<uint32_t>(blocks.steps.size());
+    }
+    blocks.steps.insert(blocks.steps.end(), steps.begin(), steps.end());
+    blocks.groups.insert(blocks.groups.end(), groups.begin(), groups.end());
     return made;
 }
 
@@ -76,17 +92,21 @@ Evaluation evaluateSdf(gpu::Device& device, const Path& file, const render::SdfK
     json results = json::array();
     for (size_t first = 0; first < cases.size(); first += EvalCases::kBatch) {
         const std::span<const EvalCase> batch = cases.batch(first);
-        std::vector<shader::FieldStepBlock> steps;
-        std::vector<shader::FieldCase> blocks;
+        FieldBlocks blocks;
+        std::vector<shader::FieldCase> deviceCases;
         for (const EvalCase& each : batch)
-            blocks.push_back(deviceCase(each, steps));
-        const gpu::Buffer inputs = gpu::uploadedBuffer(device, "field cases", std::span<const shader::FieldCase>(blocks));
-        const gpu::Buffer parts = gpu::uploadedBuffer(device, "field steps", std::span<const shader::FieldStepBlock>(steps));
+            deviceCases.push_back(deviceCase(each, blocks));
+        const gpu::Buffer steps = gpu::uploadedBuffer(device, "field steps", std::span<const shader::FieldStepBlock>(blocks.steps));
+        const gpu::Buffer groups = gpu::uploadedBuffer(device, "field groups", std::span<const shader::FieldGroupBlock>(blocks.groups));
+        for (shader::FieldCase& each : deviceCases) {
+            each.fields.steps = steps.address();
+            each.fields.groups += groups.address();
+        }
+        const gpu::Buffer inputs = gpu::uploadedBuffer(device, "field cases", std::span<const shader::FieldCase>(deviceCases));
         const gpu::Buffer answers(device, "field answers", batch.size() * sizeof(shader::FieldAnswer), gpu::MemoryKind::Readback);
         const auto count = static_cast<uint32_t>(batch.size());
         dispatchNow(device, pipeline,
                     shader::EvalField{.cases = inputs.address(),
-                                      .steps = parts.address(),
                                       .answers = answers.address(),
                                       .caseCount = count,
                                       .method = methodOf(knobs.shadow),

@@ -1,5 +1,6 @@
 #include "render/field_steps.h"
 
+#include "base/bounds.h"
 #include "base/check.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ using glm::dvec3;
 using scene::SDFOperation;
 using scene::SDFPrimitive;
 using scene::SDFShape;
+using shader::FieldGroupBlock;
 using shader::FieldStepBlock;
 
 /// A shape's own space: where its centre is, and where +Y goes.
@@ -180,6 +182,44 @@ double combined(const FieldStepBlock& step, double before, double own)
     }
 }
 
+/// About the centre, in the shape's own space.
+float localRadius(const FieldStepBlock& step)
+{
+    switch (step.shape) {
+    case shader::kFieldSegment:
+    case shader::kFieldTorus: return step.size.x + step.size.y;
+    case shader::kFieldBox: return glm::length(vec3(step.size)) + step.size.w;
+    case shader::kFieldCone: return glm::length(vec2(std::max(step.size.x, step.size.y), step.size.z));
+    default: return kFieldUnbounded;
+    }
+}
+
+/// It matters wherever one is: what has no end, and what takes away all beyond it.
+bool isEverywhere(const FieldStepBlock& step) { return step.shape == shader::kFieldPlane || step.operation == shader::kFieldIntersect; }
+
+// A step's distance is `scale` times the local one, and that is at least the way to the centre, which its transform stretches by no more
+// than `most`, less the local radius.
+void boundGroup(FieldGroupBlock& group, std::span<const FieldStepBlock> steps)
+{
+    Aabb box;
+    group.slope = 1;
+    for (const FieldStepBlock& step : steps) {
+        const FieldBound bound = boundOf(step);
+        box.add(bound.centre - bound.radius);
+        box.add(bound.centre + bound.radius);
+        group.slope = std::min(group.slope, step.scale / stretchOf(glm::inverse(linearOf(step))).most);
+    }
+    if (isEverywhere(steps.front())) {
+        group.reach = 2 * kFieldUnbounded;
+        return;
+    }
+    group.centre = box.centre();
+    for (const FieldStepBlock& step : steps)
+        group.reach = std::max(group.reach, group.slope * glm::distance(group.centre, boundOf(step).centre) +
+                                                step.scale * localRadius(step) + step.blend);
+    group.reach = group.reach * 1.00001f + 1e-6f; // rounding
+}
+
 } // namespace
 
 std::optional<FieldStepBlock> fieldStep(const SDFPrimitive& primitive, const mat4& world)
@@ -218,16 +258,22 @@ FieldBound boundOf(const FieldStepBlock& step)
 {
     const mat3 worldFromLocal = glm::inverse(linearOf(step));
     const vec3 origin{step.localFromWorld[0].w, step.localFromWorld[1].w, step.localFromWorld[2].w};
-    const auto localRadius = [&]() -> float {
-        switch (step.shape) {
-        case shader::kFieldSegment: return step.size.x + step.size.y;
-        case shader::kFieldBox: return glm::length(vec3(step.size)) + step.size.w;
-        case shader::kFieldTorus: return step.size.x + step.size.y;
-        case shader::kFieldCone: return glm::length(vec2(std::max(step.size.x, step.size.y), step.size.z));
-        default: return kFieldUnbounded;
-        }
-    };
-    return {-(worldFromLocal * origin), std::min(localRadius() * stretchOf(worldFromLocal).most, kFieldUnbounded)};
+    return {-(worldFromLocal * origin), std::min(localRadius(step) * stretchOf(worldFromLocal).most, kFieldUnbounded)};
+}
+
+void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBlock>& groups)
+{
+    groups.clear();
+    for (uint32_t i = 0; i < steps.size(); ++i) {
+        const bool isOpen = !groups.empty() && !isEverywhere(steps[i]) && !isEverywhere(steps[i - 1]) &&
+                            (steps[i].flags & shader::kFieldBegins) == 0 &&
+                            groups.back().endStep - groups.back().firstStep < shader::kFieldGroupSteps;
+        if (!isOpen)
+            groups.push_back({.firstStep = i, .endStep = i});
+        groups.back().endStep = i + 1;
+    }
+    for (FieldGroupBlock& group : groups)
+        boundGroup(group, steps.subspan(group.firstStep, group.endStep - group.firstStep));
 }
 
 } // namespace antumbra::render

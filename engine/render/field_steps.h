@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace antumbra::render {
 
@@ -18,7 +19,7 @@ std::optional<shader::FieldStepBlock> fieldStep(const scene::SDFPrimitive& primi
 /// Shapes under transforms that stretch unevenly, and what is cut or melted, come out nearer than they are.
 double fieldDistance(std::span<const shader::FieldStepBlock> steps, const glm::dvec3& point);
 
-/// Holds the step's shape, in the world. A plane's radius is kFieldUnbounded.
+/// A sphere that holds the step's shape, in the world. A plane's radius is kFieldUnbounded.
 struct FieldBound
 {
     vec3 centre{0};
@@ -26,5 +27,9 @@ struct FieldBound
 };
 inline constexpr float kFieldUnbounded = 1e9f;
 FieldBound boundOf(const shader::FieldStepBlock& step);
+
+/// Divides steps into groups, which depends on nothing but their shapes, operations and flags, and bounds them. Keeps the memory of
+/// `groups`.
+void writeGroups(std::span<const shader::FieldStepBlock> steps, std::vector<shader::FieldGroupBlock>& groups);
 
 } // namespace antumbra::render

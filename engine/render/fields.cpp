@@ -38,9 +38,12 @@ FieldFrame Fields::write(const FrameView& view)
         surfaces_.push_back(draw.surface);
         addBox(fields, draw.step, view.camera.eye);
     }
-    fields.steps = frameCopy(*device_, steps_);
-    fields.surfaces = frameCopy(*device_, surfaces_);
-    fields.count = static_cast<uint32_t>(steps_.size());
+    writeGroups(steps_, groups_);
+    fields.block = {.steps = frameCopy(*device_, steps_),
+                    .groups = frameCopy(*device_, groups_),
+                    .surfaces = frameCopy(*device_, surfaces_),
+                    .groupCount = static_cast<uint32_t>(groups_.size()),
+                    .padding = 0};
     return fields;
 }
 
@@ -69,13 +72,7 @@ const gpu::Pipeline& Fields::pipelineFor(const Look& look)
 
 void Fields::draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame)
 {
-    recorder.draw(pipeline,
-                  shader::FieldDraw{.steps = fields.steps,
-                                    .surfaces = fields.surfaces,
-                                    .lowest = fields.lowest,
-                                    .highest = fields.highest,
-                                    .stepCount = fields.count,
-                                    .frame = frame},
+    recorder.draw(pipeline, shader::FieldDraw{.fields = fields.block, .lowest = fields.lowest, .highest = fields.highest, .frame = frame},
                   3);
 }
 

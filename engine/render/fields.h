@@ -6,6 +6,7 @@
 #include "render/gpu_scene.h"
 
 #include <deque>
+#include <string_view>
 #include <vector>
 
 namespace antumbra::render {
@@ -13,13 +14,11 @@ namespace antumbra::render {
 /// Where the frame's fields lie.
 struct FieldFrame
 {
-    VkDeviceAddress steps = 0;    // FieldStepBlock[count]
-    VkDeviceAddress surfaces = 0; // FieldSurfaceBlock[count]
-    uint32_t count = 0;
+    shader::FieldsBlock block{};
     vec3 lowest{0}; // of a box about all that is solid; world
     vec3 highest{0};
 
-    explicit operator bool() const { return count > 0; }
+    explicit operator bool() const { return block.groupCount > 0; }
 };
 
 class Fields
@@ -55,6 +54,7 @@ private:
     gpu::Device* device_;
     std::vector<shader::FieldStepBlock> steps_;
     std::vector<shader::FieldSurfaceBlock> surfaces_;
+    std::vector<shader::FieldGroupBlock> groups_;
     std::deque<Made> pipelines_;
 };
 

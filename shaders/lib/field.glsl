@@ -10,16 +10,7 @@ const float kFieldFar = 1.0e9; // metres: where there is nothing
 
 layout(buffer_reference, scalar) readonly buffer FieldSteps { FieldStepBlock step[]; };
 layout(buffer_reference, scalar) readonly buffer FieldSurfaces { FieldSurfaceBlock surface[]; };
-layout(buffer_reference, scalar) readonly buffer FieldLists { uint step[]; };
-
-// All steps [first, first + count), or those that a list of as many names.
-struct Field
-{
-    uint64_t steps; // FieldStepBlock[]
-    uint64_t list; // uint[]; null: none
-    uint first;
-    uint count;
-};
+layout(buffer_reference, scalar) readonly buffer FieldGroups { FieldGroupBlock group[]; };
 
 uint fieldEvaluations = 0u; // so far
 
@@ -84,16 +75,26 @@ float fieldCombined(FieldStepBlock s, float before, float own)
     }
 }
 
-float fieldDistance(Field field, vec3 p)
+// Whether steps of the group can change the distance so far.
+bool mattersAt(FieldGroupBlock group, vec3 p, float so) { return group.slope * distance(p, group.centre) - group.reach < abs(so); }
+
+// Of all fields together. Groups that do not matter are loops that go round for nobody, which is
+// what spares CPU devices the work.
+float fieldDistance(FieldsBlock fields, vec3 p)
 {
     ++fieldEvaluations;
     float whole = kFieldFar, so = kFieldFar;
-    for (uint i = 0u; i < field.count; ++i) {
-        uint index = field.list != 0ul ? FieldLists(field.list).step[i] : field.first + i;
-        FieldStepBlock s = FieldSteps(field.steps).step[index];
-        bool begins = (s.flags & kFieldBegins) != 0u;
+    FieldSteps steps = FieldSteps(fields.steps);
+    FieldGroups groups = FieldGroups(fields.groups);
+    for (uint g = 0u; g < fields.groupCount; ++g) {
+        FieldGroupBlock group = groups.group[g];
+        uint first = group.firstStep, end = group.endStep;
+        bool begins = (steps.step[first].flags & kFieldBegins) != 0u;
         whole = begins ? min(whole, so) : whole;
-        so = fieldCombined(s, begins ? kFieldFar : so, fieldShape(s, p));
+        so = begins ? kFieldFar : so;
+        end = mattersAt(group, p, so) ? end : first;
+        for (uint i = first; i < end; ++i)
+            so = fieldCombined(steps.step[i], so, fieldShape(steps.step[i], p));
     }
     return min(whole, so);
 }

@@ -12,15 +12,15 @@ float smoothShare(float m)
 }
 
 // The least angle, as a share of the light's, under which the field leaves the axis clear; into solids too, as distances have a sign.
-float quilezVisibility(Field field, vec3 p, vec3 centre, float radius)
+float quilezVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius)
 {
-    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     if (at.settled >= 0.0)
         return at.settled;
     float tangent = radius * inversesqrt(max(at.distanceLight * at.distanceLight - radius * radius, 1.0e-9));
     float least = 1.0, t = 1.0e-3, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
-        float f = fieldDistance(field, p + at.axis * t);
+        float f = fieldDistance(fields, p + at.axis * t);
         least = min(least, f / max(tangent * t, 1.0e-7));
         t += clamp(abs(f), 0.002 * at.distanceLight, 0.1 * at.distanceLight);
     }
@@ -28,15 +28,15 @@ float quilezVisibility(Field field, vec3 p, vec3 centre, float radius)
 }
 
 // The same from outside only, so that half the penumbra is missing; the nearest point is guessed between two steps.
-float aaltonenVisibility(Field field, vec3 p, vec3 centre, float radius)
+float aaltonenVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius)
 {
-    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     if (at.settled >= 0.0)
         return at.settled;
     float cotangent = sqrt(max(at.distanceLight * at.distanceLight - radius * radius, 1.0e-9)) / max(radius, 1.0e-7);
     float least = 1.0, t = 1.0e-3, before = 1.0e20, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end; ++i) {
-        float f = fieldDistance(field, p + at.axis * t);
+        float f = fieldDistance(fields, p + at.axis * t);
         if (f < 1.0e-4)
             return 0.0;
         float back = f * f / (2.0 * before), aside = sqrt(max(f * f - back * back, 0.0));
@@ -48,15 +48,15 @@ float aaltonenVisibility(Field field, vec3 p, vec3 centre, float radius)
 }
 
 // A cone that shrinks to what is clear as it goes; no step goes past more than `tolerance` of its width.
-float coneVisibility(Field field, vec3 p, vec3 centre, float radius, float tolerance)
+float coneVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, float tolerance)
 {
-    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     if (at.settled >= 0.0)
         return at.settled;
     FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, max(kFieldLeastRadius, min(at.distance, 0.5 * radius)));
     float least = 1.0, share = 1.0, t = 0.0, f = at.distance, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
-        f = i > 0u ? fieldDistance(field, p + at.axis * t) : f;
+        f = i > 0u ? fieldDistance(fields, p + at.axis * t) : f;
         float whole = radiusAt(cone, t);
         if (f - share * whole < tolerance * whole) {
             least = min(least, f / whole);

@@ -47,7 +47,7 @@ struct FieldMarch
 
 // The least share of the cone's radius that is clear between `from` and `to`, to `tolerance`. Steps go past what is certain and are taken back
 // where two balls do not meet: the field between them cannot fall below (f + g - way) / 2 (a field that changes no faster than one goes).
-FieldMarch marchCone(Field field, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
+FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
 {
     const float kRelaxed = 1.6;
     float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t);
@@ -60,7 +60,7 @@ FieldMarch marchCone(Field field, FieldCone cone, vec2 way, float distanceFrom, 
         if (isDone)
             break;
         float next = min(t + relaxation * safe, way.y);
-        float g = fieldDistance(field, cone.apex + cone.axis * next);
+        float g = fieldDistance(fields, cone.apex + cone.axis * next);
         float step = next - t, lower = 0.5 * (f + g - step), lowest = t + 0.5 * (f - g + step);
         ratio = g / radiusAt(cone, next);
         float nextLevel = min(level, max(ratio, -1.0) - tolerance);
@@ -93,10 +93,10 @@ struct FieldReceiver
     float settled; // the share that is seen where it is known already, else -1
 };
 
-FieldReceiver fieldReceiver(Field field, vec3 p, vec3 centre, float radius)
+FieldReceiver fieldReceiver(FieldsBlock fields, vec3 p, vec3 centre, float radius)
 {
     vec3 to = centre - p;
-    float distanceLight = length(to), f = fieldDistance(field, p);
+    float distanceLight = length(to), f = fieldDistance(fields, p);
     float settled = !(f > 0.0) ? 0.0 : distanceLight <= radius * (1.0 + 1.0e-6) ? 1.0 : -1.0;
     return FieldReceiver(to / max(distanceLight, 1.0e-20), distanceLight, f, settled);
 }
@@ -121,7 +121,7 @@ float subConeDistance[kFieldMostCones];
 
 // How far a cone that is blocked in its middle is blocked: as deep as the solid reaches there, but where the distance in it levels off, in
 // what is thin, as far as to the nearest cone that is clear.
-float subConeDepth(Field field, FieldCone cone, uint k, uint count)
+float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
 {
     float depth = -subConeLeast[k], most = 1.0;
     vec3 place = subConePlace(k, count);
@@ -133,28 +133,28 @@ float subConeDepth(Field field, FieldCone cone, uint k, uint count)
     mat3 frame = tangentFrame(cone.axis);
     vec2 slope = vec2(0.0);
     for (int side = 0; side < 2; ++side)
-        slope[side] = (fieldDistance(field, cone.apex + cone.axis * subConeAt[k] + frame[side] * nudge) - subConeDistance[k]) / nudge;
+        slope[side] = (fieldDistance(fields, cone.apex + cone.axis * subConeAt[k] + frame[side] * nudge) - subConeDistance[k]) / nudge;
     return dot(slope, slope) > 0.8 * 0.8 ? depth : max(depth, most);
 }
 
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
-float subConeVisibility(Field field, vec3 p, vec3 centre, float radius, uint count)
+float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, uint count)
 {
-    FieldReceiver at = fieldReceiver(field, p, centre, radius);
+    FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     float radiusHere = max(kFieldLeastRadius, min(at.distance, 0.5 * radius)), end = at.distanceLight - radius;
     if (at.settled >= 0.0 || end <= 0.0)
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
     mat3 frame = tangentFrame(at.axis);
-    FieldMarch whole = marchCone(field, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.2);
+    FieldMarch whole = marchCone(fields, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.2);
     if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
         return capCoverage(whole.least, sine);
     for (uint k = 0u; k < count; ++k) {
         vec3 place = subConePlace(k, count);
         vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
         FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
-        float first = whole.span.x > 0.0 ? fieldDistance(field, p + axis * whole.span.x) : at.distance;
-        FieldMarch part = marchCone(field, cone, whole.span, first, 0.4);
+        float first = whole.span.x > 0.0 ? fieldDistance(fields, p + axis * whole.span.x) : at.distance;
+        FieldMarch part = marchCone(fields, cone, whole.span, first, 0.4);
         subConeLeast[k] = max(part.least, -1.0);
         subConeAt[k] = part.at;
         subConeDistance[k] = part.distance;
@@ -166,7 +166,7 @@ float subConeVisibility(Field field, vec3 p, vec3 centre, float radius, uint cou
         if (least < 0.0 && least > -1.0) {
             vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
             FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
-            least = -subConeDepth(field, cone, k, count);
+            least = -subConeDepth(fields, cone, k, count);
         }
         seen += capCoverage(least, place.z * sine);
     }

@@ -12,13 +12,13 @@ struct FieldHit
 
 // Sphere tracing (Hart 1996) by steps longer than what is clear, taken back where two balls in a row do not meet (Keinert et al. 2014). A ray
 // that comes as near as `width` a metre of its way has met the surface.
-FieldHit traceField(Field field, vec3 origin, vec3 direction, float from, float to, float width)
+FieldHit traceField(FieldsBlock fields, vec3 origin, vec3 direction, float from, float to, float width)
 {
     const float kRelaxed = 1.5;
     float t = from, before = 0.0, step = 0.0, relaxation = kRelaxed;
     FieldHit hit = FieldHit(-1.0, 0u);
     for (bool isDone = !(from < to); !isDone && hit.steps < kFieldTraceSteps; ++hit.steps) {
-        float f = fieldDistance(field, origin + direction * t);
+        float f = fieldDistance(fields, origin + direction * t);
         // The ball before reaches to where it began plus `before`; if this one does not touch it, something may lie between.
         bool isPast = relaxation > 1.0 && abs(f) + before < step;
         bool isMet = !isPast && f < width * t;
@@ -32,13 +32,15 @@ FieldHit traceField(Field field, vec3 origin, vec3 direction, float from, float 
     return hit;
 }
 
-// Along the gradient, by differences over `width` metres at a tetrahedron's corners: four of them see no side before another.
-vec3 fieldNormal(Field field, vec3 p, float width)
+// Along the gradient, by differences over `width` metres at a tetrahedron's corners: four of them see no side before another. Anything where
+// it is not wanted, without the work.
+vec3 fieldNormal(FieldsBlock fields, vec3 p, float width, bool isWanted)
 {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
+    int corners = isWanted ? 4 : 0;
+    for (int i = 0; i < corners; ++i) {
         vec3 corner = vec3(((i + 3) >> 1) & 1, (i >> 1) & 1, i & 1) * 2.0 - 1.0;
-        sum += corner * fieldDistance(field, p + corner * width);
+        sum += corner * fieldDistance(fields, p + corner * width);
     }
     return dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0, 1.0, 0.0);
 }
@@ -50,7 +52,7 @@ FieldSurfaceBlock mixedSurface(FieldSurfaceBlock a, FieldSurfaceBlock b, float s
 }
 
 // How much of a step's own surface shows where the distances are these; melted ones change over as the distance does.
-float surfaceShare(FieldStepBlock s, float before, float own)
+float ownShare(FieldStepBlock s, float before, float own)
 {
     switch (s.operation) {
     case kFieldUnion: return own < before ? 1.0 : 0.0;
@@ -60,28 +62,30 @@ float surfaceShare(FieldStepBlock s, float before, float own)
     }
 }
 
-// `surfaces` are as many as steps.
-FieldSurfaceBlock fieldSurface(Field field, uint64_t surfaces, vec3 p)
+// At a point on the surface. Anything where it is not wanted, without the work.
+FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
 {
     FieldSurfaceBlock none = FieldSurfaceBlock(vec3(0.0), 1.0, 0.0, 0.0), shown = none, made = none;
     float whole = kFieldFar, so = kFieldFar;
-    for (uint i = 0u; i <= field.count; ++i) {
-        bool isOver = i == field.count;
-        uint index = isOver ? 0u : field.list != 0ul ? FieldLists(field.list).step[i] : field.first + i;
-        FieldStepBlock s = FieldSteps(field.steps).step[index];
-        if (isOver || (s.flags & kFieldBegins) != 0u) {
+    FieldSteps steps = FieldSteps(fields.steps);
+    uint groupCount = isWanted ? fields.groupCount : 0u;
+    for (uint g = 0u; g < groupCount; ++g) {
+        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        uint first = group.firstStep, end = group.endStep;
+        if ((steps.step[first].flags & kFieldBegins) != 0u) {
             shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0);
             whole = min(whole, so);
             so = kFieldFar;
-            made = none;
         }
-        if (isOver)
-            break;
-        float own = fieldShape(s, p);
-        made = mixedSurface(made, FieldSurfaces(surfaces).surface[index], surfaceShare(s, so, own));
-        so = fieldCombined(s, so, own);
+        end = mattersAt(group, p, so) ? end : first;
+        for (uint i = first; i < end; ++i) {
+            FieldStepBlock s = steps.step[i];
+            float own = fieldShape(s, p);
+            made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], ownShare(s, so, own));
+            so = fieldCombined(s, so, own);
+        }
     }
-    return shown;
+    return mixedSurface(shown, made, so < whole ? 1.0 : 0.0);
 }
 
 #endif

@@ -29,6 +29,29 @@ struct FieldStepBlock
     uint flags;
 };
 
+const uint kFieldGroupSteps = 8u; // at most
+
+// Steps in a row of one field that matter only near them: the distance of each is at least slope * |p - centre| - reach, and none of them
+// changes a distance that is less than that, inside a solid as outside.
+struct FieldGroupBlock
+{
+    vec3 centre;
+    float reach; // metres; how far smooth unions melt is added
+    float slope;
+    uint firstStep;
+    uint endStep;
+};
+
+// All fields of a frame.
+struct FieldsBlock
+{
+    uint64_t steps; // FieldStepBlock[]
+    uint64_t groups; // FieldGroupBlock[groupCount]
+    uint64_t surfaces; // FieldSurfaceBlock[], one a step
+    uint groupCount;
+    uint padding;
+};
+
 // What light does on a step's surface.
 struct FieldSurfaceBlock
 {
@@ -41,11 +64,9 @@ struct FieldSurfaceBlock
 // What the camera sees of all fields: push constants.
 struct FieldDraw
 {
-    uint64_t steps; // FieldStepBlock[stepCount]
-    uint64_t surfaces; // FieldSurfaceBlock[stepCount]
+    FieldsBlock fields;
     vec3 lowest; // of a box about all of it; world
     vec3 highest;
-    uint stepCount;
     uint frame; // slot of a FrameBlock
 };
 
@@ -59,14 +80,13 @@ const uint kFieldTraced = 4u;
 // Shares of area lights that are seen past all fields.
 struct FieldShade
 {
+    FieldsBlock fields;
     uint64_t area; // AreaBlock
-    uint64_t steps; // FieldStepBlock[stepCount]
     uint64_t counters; // CounterBlock
     uint64_t seen; // float[lightCount][pixels of the lit image], written
     uint frame; // slot of a FrameBlock
     uint depth;
     uint normals;
-    uint stepCount;
     uint cones;
     uint cells;
     uint rays;
@@ -81,8 +101,7 @@ struct FieldCase
     vec3 position;
     vec3 centre; // of the light
     float radius;
-    uint firstStep;
-    uint stepCount;
+    FieldsBlock fields; // without surfaces
 };
 
 struct FieldAnswer
@@ -94,7 +113,6 @@ struct FieldAnswer
 struct EvalField
 {
     uint64_t cases; // FieldCase[caseCount]
-    uint64_t steps; // FieldStepBlock[]
     uint64_t answers; // FieldAnswer[caseCount], written
     uint caseCount;
     uint method;

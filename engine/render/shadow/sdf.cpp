@@ -43,14 +43,13 @@ graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const Fram
         pass.createBuffer("seen past fields", size_t{lightCount} * lit.extent.x * lit.extent.y * sizeof(float), Use::StorageWrite);
     pass.record([&pipeline, &knobs, frame, fields, g, area, lit, seen, counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
-                          shader::FieldShade{.area = area,
-                                             .steps = fields.steps,
+                          shader::FieldShade{.fields = fields.block,
+                                             .area = area,
                                              .counters = recorder.address(counted),
                                              .seen = recorder.address(seen),
                                              .frame = frame,
                                              .depth = recorder.sampled(g.depth),
                                              .normals = recorder.sampled(g.normals),
-                                             .stepCount = fields.count,
                                              .cones = knobs.cones,
                                              .cells = knobs.cells,
                                              .rays = 0,
