@@ -37,21 +37,33 @@ struct FieldCone
 
 float radiusAt(FieldCone cone, float t) { return max(cone.radius + t * cone.slope, 1.0e-7); }
 
+// Two steps in a row, between which the field may fall lower than at either: it changes no faster than one goes.
+struct FieldGap
+{
+    vec2 at; // metres along the axis
+    vec2 distance; // there
+};
+
+float gapLowest(FieldGap gap) { return 0.5 * (gap.distance.x + gap.distance.y - (gap.at.y - gap.at.x)); }
+float gapLowestAt(FieldGap gap) { return 0.5 * (gap.at.x + gap.at.y + gap.distance.x - gap.distance.y); }
+float gapLeast(FieldCone cone, FieldGap gap) { return gapLowest(gap) / radiusAt(cone, gapLowestAt(gap)); }
+
 struct FieldMarch
 {
     float least; // of distance by radius, at most 1; -1 and less: no light comes through
     float at; // metres along the axis, where that is
     float distance; // there
     vec2 span; // metres along the axis: before and behind it nothing reaches into the cone
+    FieldGap gap; // the one that may hold the least
 };
 
 // The least share of the cone's radius that is clear between `from` and `to`, to `tolerance`. Steps go past what is certain and are taken back
-// where two balls do not meet: the field between them cannot fall below (f + g - way) / 2 (a field that changes no faster than one goes).
+// where two balls do not meet.
 FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
 {
     const float kRelaxed = 1.6;
-    float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t);
-    FieldMarch march = FieldMarch(min(ratio, 1.0), t, f, way);
+    float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t), leastInGap = 1.0;
+    FieldMarch march = FieldMarch(min(ratio, 1.0), t, f, way, FieldGap(vec2(t), vec2(f)));
     float level = march.least - tolerance, relaxation = kRelaxed;
     bool isMet = ratio < 1.0, isInside = isMet, isDone = t >= way.y || march.least <= -1.0;
     for (uint i = 0u; i < kFieldMarchSteps && !isDone; ++i) {
@@ -61,17 +73,23 @@ FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanc
             break;
         float next = min(t + relaxation * safe, way.y);
         float g = fieldDistance(fields, cone.apex + cone.axis * next);
-        float step = next - t, lower = 0.5 * (f + g - step), lowest = t + 0.5 * (f - g + step);
+        FieldGap gap = FieldGap(vec2(t, next), vec2(f, g));
+        float inGap = gapLeast(cone, gap);
         ratio = g / radiusAt(cone, next);
         float nextLevel = min(level, max(ratio, -1.0) - tolerance);
-        bool isCertain = relaxation == 1.0 || lower >= nextLevel * radiusAt(cone, lowest);
-        if (ratio < march.least)
-            march = FieldMarch(ratio, next, g, march.span);
+        bool isCertain = relaxation == 1.0 || inGap >= nextLevel;
+        if (ratio < march.least) {
+            march.least = ratio;
+            march.at = next;
+            march.distance = g;
+        }
         level = nextLevel;
         isDone = march.least <= -1.0;
         relaxation = isCertain ? kRelaxed : 1.0;
         if (!isCertain)
             continue;
+        march.gap = inGap < leastInGap ? gap : march.gap;
+        leastInGap = min(leastInGap, inGap);
         bool isIn = ratio < 1.0;
         march.span.x = isIn && !isMet ? t : march.span.x;
         march.span.y = !isIn && isInside ? next : march.span.y;
@@ -82,6 +100,22 @@ FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanc
     }
     march.span.y = isInside ? way.y : march.span.y;
     return march;
+}
+
+// Asks again in the gap where the axis may run through a solid: what is thin would slip through.
+void searchGap(FieldsBlock fields, FieldCone cone, inout FieldMarch march)
+{
+    for (int i = 0; i < 2 && march.least > -1.0 && gapLeast(cone, march.gap) < min(march.least, 0.0); ++i) {
+        float t = gapLowestAt(march.gap), f = fieldDistance(fields, cone.apex + cone.axis * t), ratio = f / radiusAt(cone, t);
+        if (ratio < march.least) {
+            march.least = ratio;
+            march.at = t;
+            march.distance = f;
+        }
+        FieldGap before = FieldGap(vec2(march.gap.at.x, t), vec2(march.gap.distance.x, f));
+        FieldGap behind = FieldGap(vec2(t, march.gap.at.y), vec2(f, march.gap.distance.y));
+        march.gap = gapLowest(before) < gapLowest(behind) ? before : behind;
+    }
 }
 
 // What every method settles before it divides: inside a solid all is dark, inside the light all is lit.
@@ -106,21 +140,22 @@ FieldCone coneToSphere(vec3 p, vec3 axis, float distanceLight, float radius, flo
     return FieldCone(p, axis, radiusHere, min((radius - radiusHere) / distanceLight, 0.9999));
 }
 
-// Places and radii of the cones that share a disc, as shares of its radius.
+// Places and radii of the cones that share a disc, as shares of its radius: of rings that err least for one straight edge anywhere.
 vec3 subConePlace(uint k, uint count)
 {
-    uint inMiddle = count == 4u ? 0u : 1u, ring = count - inMiddle;
-    float turn = kTau * (float(k - inMiddle) + 0.3) / float(max(ring, 1u));
-    float off = k < inMiddle ? 0.0 : count == 4u ? 0.6 : 0.7;
-    return vec3(off * cos(turn), off * sin(turn), inversesqrt(float(count)));
+    if (count == 4u)
+        return vec3(0.6 * cos(kTau * (float(k) + 0.3) / 4.0), 0.6 * sin(kTau * (float(k) + 0.3) / 4.0), 0.5);
+    uint inRing = count == 7u ? 6u : k < 6u ? 5u : 10u;
+    float turn = kTau * (float(k < 6u ? k : k - 6u) + 0.3) / float(inRing);
+    float off = k == 0u ? 0.0 : count == 7u ? 0.7 : k < 6u ? 0.449 : 0.802;
+    return vec3(off * cos(turn), off * sin(turn), count == 7u ? 0.378 : 0.278);
 }
 
 float subConeLeast[kFieldMostCones];
 float subConeAt[kFieldMostCones];
-float subConeDistance[kFieldMostCones];
 
-// How far a cone that is blocked in its middle is blocked: as deep as the solid reaches there, but where the distance in it levels off, in
-// what is thin, as far as to the nearest cone that is clear.
+// How far a cone that is blocked in its middle is blocked. Across the edge of a wedge the distance rises by less than one goes, and the edge is
+// as much farther; in the middle of what is thin it is level, and the nearest cone that is clear says how far it reaches at most.
 float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
 {
     float depth = -subConeLeast[k], most = 1.0;
@@ -129,12 +164,16 @@ float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
         float apart = distance(place.xy, subConePlace(j, count).xy) / place.z;
         most = subConeLeast[j] >= 0.0 ? min(most, apart - subConeLeast[j]) : most;
     }
-    float nudge = 0.02 * radiusAt(cone, subConeAt[k]);
+    most = max(most, depth);
+    float nudge = 0.1 * radiusAt(cone, subConeAt[k]);
     mat3 frame = tangentFrame(cone.axis);
     vec2 slope = vec2(0.0);
-    for (int side = 0; side < 2; ++side)
-        slope[side] = (fieldDistance(fields, cone.apex + cone.axis * subConeAt[k] + frame[side] * nudge) - subConeDistance[k]) / nudge;
-    return dot(slope, slope) > 0.8 * 0.8 ? depth : max(depth, most);
+    for (int side = 0; side < 4; ++side) {
+        float way = side < 2 ? nudge : -nudge;
+        slope[side & 1] += fieldDistance(fields, cone.apex + cone.axis * subConeAt[k] + frame[side & 1] * way) / (2.0 * way);
+    }
+    float rise = min(length(slope), 1.0);
+    return mix(most, min(depth / max(rise, 0.05), most), clamp((rise - 0.2) / 0.3, 0.0, 1.0));
 }
 
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
@@ -146,7 +185,7 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
     mat3 frame = tangentFrame(at.axis);
-    FieldMarch whole = marchCone(fields, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.2);
+    FieldMarch whole = marchCone(fields, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.3);
     if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
         return capCoverage(whole.least, sine);
     for (uint k = 0u; k < count; ++k) {
@@ -154,10 +193,10 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
         vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
         FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
         float first = whole.span.x > 0.0 ? fieldDistance(fields, p + axis * whole.span.x) : at.distance;
-        FieldMarch part = marchCone(fields, cone, whole.span, first, 0.4);
+        FieldMarch part = marchCone(fields, cone, whole.span, first, 0.5);
+        searchGap(fields, cone, part);
         subConeLeast[k] = max(part.least, -1.0);
         subConeAt[k] = part.at;
-        subConeDistance[k] = part.distance;
     }
     float seen = 0.0;
     for (uint k = 0u; k < count; ++k) {
