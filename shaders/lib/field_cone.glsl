@@ -10,14 +10,15 @@ const float kFieldLeastRadius = 1.0e-3; // metres, of a cone where it begins: on
 const uint kFieldMostCones = 16u;
 
 // Share of a cap that a plane through its apex leaves clear: `m` is the sine of the plane's angle to the axis as a share of `sine`, that of
-// the cap's half angle; 1 is clear. The disc's share where the cap is nearly flat, as differences of nearly equal angles say nothing there.
+// the cap's half angle; 1 is clear. A disc's share and the next term of its series where the cap is nearly flat: there the formula is a
+// difference of nearly equal angles.
 float capCoverage(float m, float sine)
 {
     m = clamp(m, -1.0, 1.0);
     float side = sqrt(max((1.0 - m) * (1.0 + m), 0.0));
     float disc = 0.5 + (m * side + atan(m, side)) / kPi;
-    if (sine < 0.05)
-        return clamp(disc, 0.0, 1.0);
+    if (sine < 0.2)
+        return clamp(disc - m * side * side * side * sine * sine / kTau, 0.0, 1.0);
     float cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
     float b = m * sine, cosineB = sqrt(max((1.0 - b) * (1.0 + b), 0.0));
     float x = clamp(-b * cosine / max(cosineB * sine, 1.0e-20), -1.0, 1.0);
@@ -153,6 +154,23 @@ vec3 subConePlace(uint k, uint count)
 
 float subConeLeast[kFieldMostCones];
 float subConeAt[kFieldMostCones];
+float subConeDistance[kFieldMostCones];
+
+// How the distance changes across the axis, by steps to both sides.
+struct FieldSlope
+{
+    float least; // in both ways alike: 0 on a ridge, in the middle of what is thin
+    float greatest; // on one side
+};
+
+FieldSlope slopeAcross(FieldsBlock fields, vec3 p, vec3 axis, float distanceHere, float nudge)
+{
+    mat3 frame = tangentFrame(axis);
+    vec2 change[2] = vec2[2](vec2(0.0), vec2(0.0));
+    for (int i = 0; i < 4; ++i)
+        change[i >> 1][i & 1] = (fieldDistance(fields, p + frame[i & 1] * (i < 2 ? nudge : -nudge)) - distanceHere) / nudge;
+    return FieldSlope(min(0.5 * length(change[0] - change[1]), 1.0), min(length(max(abs(change[0]), abs(change[1]))), 1.0));
+}
 
 // How far a cone that is blocked in its middle is blocked. Across the edge of a wedge the distance rises by less than one goes, and the edge is
 // as much farther; in the middle of what is thin it is level, and the nearest cone that is clear says how far it reaches at most.
@@ -165,15 +183,9 @@ float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
         most = subConeLeast[j] >= 0.0 ? min(most, apart - subConeLeast[j]) : most;
     }
     most = max(most, depth);
-    float nudge = 0.1 * radiusAt(cone, subConeAt[k]);
-    mat3 frame = tangentFrame(cone.axis);
-    vec2 slope = vec2(0.0);
-    for (int side = 0; side < 4; ++side) {
-        float way = side < 2 ? nudge : -nudge;
-        slope[side & 1] += fieldDistance(fields, cone.apex + cone.axis * subConeAt[k] + frame[side & 1] * way) / (2.0 * way);
-    }
-    float rise = min(length(slope), 1.0);
-    return mix(most, min(depth / max(rise, 0.05), most), clamp((rise - 0.2) / 0.3, 0.0, 1.0));
+    vec3 at = cone.apex + cone.axis * subConeAt[k];
+    FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], 0.1 * radiusAt(cone, subConeAt[k]));
+    return mix(most, min(depth / max(slope.greatest, 0.05), most), clamp((slope.least - 0.2) / 0.3, 0.0, 1.0));
 }
 
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
@@ -197,6 +209,7 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
         searchGap(fields, cone, part);
         subConeLeast[k] = max(part.least, -1.0);
         subConeAt[k] = part.at;
+        subConeDistance[k] = part.distance;
     }
     float seen = 0.0;
     for (uint k = 0u; k < count; ++k) {

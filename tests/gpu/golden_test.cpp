@@ -57,6 +57,38 @@ TEST_F(Golden, Area)
     expectAllRight(evaluateArea(device(), golden("area.json")));
 }
 
+/// Over the cases of that class, of what evaluateSdf found.
+double rmseOfClass(const Path& file, const Evaluation& evaluation, std::string_view name)
+{
+    const nlohmann::json document = nlohmann::json::parse(readText(file));
+    const nlohmann::json results = nlohmann::json::parse(evaluation.results);
+    const nlohmann::json& cases = document.is_array() ? document : document["cases"];
+    double sum = 0;
+    int count = 0;
+    for (size_t i = 0; i < cases.size(); ++i)
+        if (cases[i]["class"] == name) {
+            sum += std::pow(results[i]["visibility"].get<double>() - cases[i]["visibility"].get<double>(), 2);
+            ++count;
+        }
+    return std::sqrt(sum / count);
+}
+
+TEST_F(Golden, Sdf)
+{
+    if (!std::filesystem::exists(golden("sdf.json")))
+        GTEST_SKIP() << golden("sdf.json") << " is not there";
+    for (const auto& [cones, bound] : {std::pair(4u, 0.04), std::pair(7u, 0.03), std::pair(16u, 0.02)}) {
+        const Evaluation evaluation = evaluateSdf(device(), golden("sdf.json"), {.cones = cones});
+        EXPECT_LT(rmseOfClass(golden("sdf.json"), evaluation, "random"), bound) << cones;
+        if (cones >= 7)
+            expectAllRight(evaluation);
+    }
+    const Evaluation one = evaluateSdf(device(), golden("sdf.json"), {.shadow = render::FieldShadow::Cone});
+    const Evaluation unsigned_ = evaluateSdf(device(), golden("sdf.json"), {.shadow = render::FieldShadow::Aaltonen});
+    EXPECT_LT(rmseOfClass(golden("sdf.json"), one, "random"), 0.09);
+    EXPECT_LT(rmseOfClass(golden("sdf.json"), one, "random"), rmseOfClass(golden("sdf.json"), unsigned_, "random"));
+}
+
 TEST_F(Golden, AnEmptyListIsDone)
 {
     const Path file = written(R"({"cases": []})");

@@ -11,6 +11,7 @@
 #include "shared/composite.h"
 #include "shared/area.h"
 #include "shared/eval.h"
+#include "shared/field.h"
 #include "shared/prt.h"
 
 layout(buffer_reference, scalar) writeonly buffer Words { uint word[]; };
@@ -58,6 +59,14 @@ void put(mat4 value)
 {
     for (int i = 0; i < 4; ++i)
         put(value[i]);
+}
+void put(FieldsBlock value)
+{
+    put(value.steps);
+    put(value.groups);
+    put(value.surfaces);
+    put(value.groupCount);
+    put(value.padding);
 }
 
 void put(MaterialBlock value)
@@ -538,6 +547,121 @@ void echo(LightBodyDraw b)
     put(b.exposure);
     put(b.frame);
     put(b.isTwoSided);
+}
+
+#elif defined(FIELD_STEP_BLOCK)
+
+#define Block FieldStepBlock
+void echo(FieldStepBlock b)
+{
+    for (int i = 0; i < b.localFromWorld.length(); ++i)
+        put(b.localFromWorld[i]);
+    put(b.size);
+    put(b.scale);
+    put(b.blend);
+    put(b.shape);
+    put(b.operation);
+    put(b.flags);
+}
+
+#elif defined(FIELD_GROUP_BLOCK)
+
+#define Block FieldGroupBlock
+void echo(FieldGroupBlock b)
+{
+    put(b.centre);
+    put(b.reach);
+    put(b.slope);
+    put(b.firstStep);
+    put(b.endStep);
+}
+
+#elif defined(FIELDS_BLOCK)
+
+#define Block FieldsBlock
+void echo(FieldsBlock b)
+{
+    put(b.steps);
+    put(b.groups);
+    put(b.surfaces);
+    put(b.groupCount);
+    put(b.padding);
+}
+
+#elif defined(FIELD_SURFACE_BLOCK)
+
+#define Block FieldSurfaceBlock
+void echo(FieldSurfaceBlock b)
+{
+    put(b.albedo);
+    put(b.roughness);
+    put(b.metallic);
+    put(b.specular);
+}
+
+#elif defined(FIELD_DRAW)
+
+#define Block FieldDraw
+void echo(FieldDraw b)
+{
+    put(b.fields);
+    put(b.lowest);
+    put(b.highest);
+    put(b.frame);
+}
+
+#elif defined(FIELD_SHADE)
+
+#define Block FieldShade
+void echo(FieldShade b)
+{
+    put(b.fields);
+    put(b.area);
+    put(b.counters);
+    put(b.seen);
+    put(b.frame);
+    put(b.depth);
+    put(b.normals);
+    put(b.cones);
+    put(b.cells);
+    put(b.rays);
+    put(b.tolerance);
+    put(b.pixelScale);
+    put(b.litWidth);
+    put(b.litHeight);
+}
+
+#elif defined(FIELD_CASE)
+
+#define Block FieldCase
+void echo(FieldCase b)
+{
+    put(b.position);
+    put(b.centre);
+    put(b.radius);
+    put(b.fields);
+}
+
+#elif defined(FIELD_ANSWER)
+
+#define Block FieldAnswer
+void echo(FieldAnswer b)
+{
+    put(b.visibility);
+    put(b.evaluations);
+}
+
+#elif defined(EVAL_FIELD)
+
+#define Block EvalField
+void echo(EvalField b)
+{
+    put(b.cases);
+    put(b.answers);
+    put(b.caseCount);
+    put(b.method);
+    put(b.cones);
+    put(b.tolerance);
 }
 
 #endif

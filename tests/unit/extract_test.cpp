@@ -1,10 +1,13 @@
 #include "render/extract.h"
 
+#include "base/error.h"
 #include "scene/animator.h"
 #include "scene/populate.h"
 #include "tests/unit/allocation_counter.h"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace {
 
@@ -151,6 +154,51 @@ TEST(Extract, ACameraAtItsTargetKeepsItsRotation)
     for (auto [camera, transform] : Each<const Camera, Transform>(stage.world))
         transform.rotation = glm::angleAxis(kPi / 2, vec3(0, 1, 0));
     expectNear(stage.seenAlong({0, 0, -1}), {-1, 0, 0});
+}
+
+SceneEntity primitive(const std::string& name, int32_t order, uint32_t field)
+{
+    SceneEntity entity;
+    entity.name = name;
+    entity.sdfPrimitive =
+        SDFPrimitive{.radius = static_cast<float>(10 * field + 1) + 0.1f * static_cast<float>(order), .order = order, .field = field};
+    return entity;
+}
+
+TEST(Extract, FieldsRunByTheirOrder)
+{
+    SceneFile scene;
+    scene.entities = {primitive("a", 3, 1), primitive("b", 2, 0), primitive("c", 1, 1), primitive("d", 2, 0)};
+    scene.entities[3].sdfPrimitive->radius = 7;
+    World world;
+    Assets assets;
+    populate(world, assets, scene);
+    FrameView view;
+    extract(world, assets, view);
+    ASSERT_EQ(view.fieldSteps.size(), 4u);
+    constexpr float kRadii[] = {1.2f, 7, 11.1f, 11.3f};
+    constexpr uint32_t kFlags[] = {shader::kFieldBegins, 0, shader::kFieldBegins, 0};
+    for (size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(view.fieldSteps[i].step.size.y, kRadii[i]);
+        EXPECT_EQ(view.fieldSteps[i].step.flags, kFlags[i]);
+    }
+}
+
+TEST(Extract, AnSDFPrimitiveThatIsNotFiniteIsRefusedByName)
+{
+    SceneFile scene;
+    scene.entities = {primitive("sound", 0, 0), primitive("ghost", 1, 0)};
+    scene.entities[1].sdfPrimitive->radius = std::numeric_limits<float>::quiet_NaN();
+    World world;
+    Assets assets;
+    populate(world, assets, scene);
+    FrameView view;
+    try {
+        extract(world, assets, view);
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.which, "ghost");
+    }
 }
 
 TEST(Extract, SteadyFramesAllocateNothing)

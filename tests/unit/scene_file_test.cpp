@@ -133,7 +133,10 @@ TEST(SceneFile, ReadsOccludersAndDistanceFields)
         {"SDFPrimitive": {"shape": "capsule", "a": [0, 0, 0], "b": [0, 1, 0], "radius": 0.2, "operation": "smooth_union", "k": 0.3,
                           "order": -4, "field": "rings"}},
         {"SDFPrimitive": {"shape": "plane", "normal": [0, 1, 0], "offset": -1, "operation": "subtract"}},
-        {"SDFPrimitive": {"shape": "rounded_box", "half": [1, 2, 3], "radius": 0.1}}]})");
+        {"SDFPrimitive": {"shape": "rounded_box", "half": [1, 2, 3], "radius": 0.1}},
+        {"SDFPrimitive": {"shape": "cylinder", "center": [1, 2, 3], "axis": [0, 0, 3], "radius": 0.2, "height": 5}},
+        {"SDFPrimitive": {"shape": "cone", "radius": 0.4, "height": 3}},
+        {"SDFPrimitive": {"shape": "cone", "radius": 0.4, "top_radius": 0.3, "height": 3}}]})");
     EXPECT_EQ(scene.entities[0].occluder->greatestVertices, 12u);
     EXPECT_EQ(scene.entities[1].occluder->shape, OccluderShape::Triangles);
     const SDFPrimitive& torus = *scene.entities[2].sdfPrimitive;
@@ -147,6 +150,18 @@ TEST(SceneFile, ReadsOccludersAndDistanceFields)
     EXPECT_EQ(capsule.field, torus.field);
     EXPECT_NE(scene.entities[4].sdfPrimitive->field, torus.field);
     EXPECT_EQ(scene.entities[5].sdfPrimitive->halfExtent, vec3(1, 2, 3));
+    const SDFPrimitive& cylinder = *scene.entities[6].sdfPrimitive;
+    EXPECT_EQ(cylinder.shape, SDFShape::Cylinder);
+    EXPECT_EQ(cylinder.centre, vec3(1, 2, 3));
+    EXPECT_EQ(cylinder.direction, vec3(0, 0, 1));
+    EXPECT_EQ(cylinder.radius, 0.2f);
+    EXPECT_EQ(cylinder.height, 5);
+    const SDFPrimitive& cone = *scene.entities[7].sdfPrimitive;
+    EXPECT_EQ(cone.shape, SDFShape::Cone);
+    EXPECT_EQ(cone.radius, 0.4f);
+    EXPECT_EQ(cone.minorRadius, 0) << "a cone has a tip";
+    EXPECT_EQ(cone.height, 3);
+    EXPECT_EQ(scene.entities[8].sdfPrimitive->minorRadius, 0.3f);
     EXPECT_EQ(scene.fields, (std::vector<std::string>{"rings", ""}));
 }
 
@@ -249,6 +264,8 @@ TEST(SceneFile, ValuesHaveTypesAndRanges)
                                R"({"SDFPrimitive": {"shape": "sphere", "k": 1}})",
                                R"({"SDFPrimitive": {"shape": "plane", "normal": [0, 0, 0]}})",
                                R"({"SDFPrimitive": {"shape": "sphere", "order": 1.5}})",
+                               R"({"SDFPrimitive": {"shape": "cylinder", "top_radius": 1}})",
+                               R"({"SDFPrimitive": {"shape": "cone", "top_radius": -1}})",
                                R"({"repeat": {"count": -1}})",
                                R"({"repeat": {"count": 1000000}})",
                                R"({"mesh": "cube", "Occluder": {"shape": "triangles", "max_vertices": 8}})"})

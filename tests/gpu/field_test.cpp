@@ -1,0 +1,76 @@
+// shaders/lib/field.glsl on the device against the same in double, and the coverage of a cap against its exact formula.
+#include "gpu/device_fixture.h"
+#include "gpu/field_upload.h"
+#include "gpu/kernel.h"
+
+namespace antumbra {
+namespace {
+
+using glm::dvec3;
+
+class Field : public DeviceTest
+{
+};
+
+TEST_F(Field, DistancesMatchDouble)
+{
+    constexpr uint32_t kFields = 600, kPoints = 40;
+    RandomInputs random(11);
+    std::vector<FieldSteps> fields;
+    for (uint32_t i = 0; i < kFields; ++i)
+        fields.push_back(randomField(random, 1 + random.index(i % 10 == 0 ? 60 : 9)));
+    const FieldUpload uploaded(device(), fields);
+    std::vector<FieldAsk> asks;
+    for (uint32_t i = 0; i < kFields * kPoints; ++i)
+        asks.push_back({.position = vec3(random.direction() * random.logUniform(0.1, 20)), .fields = uploaded[i / kPoints]});
+    const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, "FIELD_DISTANCE", asks);
+    for (size_t i = 0; i < asks.size(); ++i) {
+        const double expected = render::fieldDistance(fields[i / kPoints], dvec3(asks[i].position));
+        // Coordinates of a stretched space are up to 15 times as large, and rounded so.
+        ASSERT_NEAR(said[i].value, expected, 4e-6 * (1 + std::abs(expected))) << "field " << i / kPoints << " point " << i % kPoints;
+        ASSERT_EQ(said[i].evaluations, 1u);
+    }
+}
+
+TEST_F(Field, NothingIsFarAway)
+{
+    const FieldUpload uploaded(device(), {FieldSteps{}});
+    const auto said = runKernel<FieldSaid>(device(), kFieldKernel, "FIELD_DISTANCE", std::vector{FieldAsk{.fields = uploaded[0]}});
+    EXPECT_EQ(said[0].value, 1e9f);
+}
+
+// Of a cap of half angle a, what a plane through the apex leaves at the angle b from the axis, sin b = m sin a.
+double exactCoverage(double m, double sine)
+{
+    const double a = std::asin(sine), b = std::asin(m * sine);
+    const double x = std::clamp(-std::tan(b) / std::tan(a), -1.0, 1.0);
+    return (std::numbers::pi - std::acos(m) - std::cos(a) * std::acos(x)) / (2 * std::numbers::pi * std::pow(std::sin(a / 2), 2));
+}
+
+TEST_F(Field, CapsAreCoveredExactly)
+{
+    struct In
+    {
+        float m;
+        float sine;
+    };
+    std::vector<In> inputs{{-1, 0.5f}, {1, 0.5f}, {0, 0.5f}, {0, 1}, {-7, 0.1f}, {7, 0.1f}, {0.3f, 0}};
+    RandomInputs random(12);
+    for (int i = 0; i < 50000; ++i)
+        inputs.push_back({static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.logUniform(1e-4, 0.9999))});
+    const std::vector<float> shares = runKernel<float>(device(), kFieldKernel, "CAP_COVERAGE", inputs);
+    EXPECT_EQ(shares[0], 0);
+    EXPECT_EQ(shares[4], 0);
+    EXPECT_NEAR(shares[1], 1, 1e-6);
+    EXPECT_NEAR(shares[5], 1, 1e-6);
+    EXPECT_NEAR(shares[2], 0.5, 1e-6);
+    EXPECT_NEAR(shares[6], exactCoverage(0.3f, 1e-3), 1e-6);
+    for (size_t i = 7; i < inputs.size(); ++i) {
+        // Small caps are differences of angles that are nearly equal; the smallest are discs.
+        const double expected = exactCoverage(inputs[i].m, std::max(double{inputs[i].sine}, 1e-3));
+        ASSERT_NEAR(shares[i], expected, 1.5e-4) << inputs[i].m << " of " << inputs[i].sine;
+    }
+}
+
+} // namespace
+} // namespace antumbra
