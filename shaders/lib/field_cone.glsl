@@ -62,7 +62,7 @@ struct FieldMarch
 // where two balls do not meet.
 FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
 {
-    const float kRelaxed = 1.6;
+    const float kRelaxed = 1.8;
     float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t), leastInGap = 1.0;
     FieldMarch march = FieldMarch(min(ratio, 1.0), t, f, way, FieldGap(vec2(t), vec2(f)));
     float level = march.least - tolerance, relaxation = kRelaxed;
@@ -184,8 +184,8 @@ float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
     }
     most = max(most, depth);
     vec3 at = cone.apex + cone.axis * subConeAt[k];
-    FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], 0.1 * radiusAt(cone, subConeAt[k]));
-    return mix(most, min(depth / max(slope.greatest, 0.05), most), clamp((slope.least - 0.2) / 0.3, 0.0, 1.0));
+    FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], 0.3 * radiusAt(cone, subConeAt[k]));
+    return mix(most, min(depth / max(slope.greatest, 0.05), most), clamp((slope.least - 0.1) / 0.3, 0.0, 1.0));
 }
 
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
@@ -197,7 +197,7 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
     mat3 frame = tangentFrame(at.axis);
-    FieldMarch whole = marchCone(fields, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.3);
+    FieldMarch whole = marchCone(fields, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.4);
     if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
         return capCoverage(whole.least, sine);
     for (uint k = 0u; k < count; ++k) {
@@ -215,7 +215,7 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
     for (uint k = 0u; k < count; ++k) {
         vec3 place = subConePlace(k, count);
         float least = subConeLeast[k];
-        if (least < 0.0 && least > -1.0) {
+        if (least < 0.0 && least > -0.95) { // what is left of a cone that is blocked farther makes no difference
             vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
             FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
             least = -subConeDepth(fields, cone, k, count);

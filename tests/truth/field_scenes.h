@@ -1,0 +1,46 @@
+// The scenes that methods/sdf-cones.md measures on, as steps; the points that their cameras see; and what is seen from them of a light, by
+// rays on the CPU in double.
+#pragma once
+
+#include "gpu/random_fields.h"
+#include "scene/images.h"
+
+#include <functional>
+#include <string>
+
+namespace antumbra::truth {
+
+struct FieldScene
+{
+    std::string name;
+    FieldSteps steps;
+    vec3 light; // centre
+    float radius;
+    vec3 eye;
+    vec3 target;
+};
+
+/// prims: apart; csg: cut and melted; thin: rods, rings and a plate; slabs: sheets and a hole.
+std::vector<FieldScene> fieldScenes();
+
+/// A point just off a surface.
+struct FieldReceiver
+{
+    size_t pixel;
+    glm::dvec3 position;
+    glm::dvec3 normal;
+};
+
+/// Of the pixels that show a surface, through an upright camera of 0.9 rad.
+std::vector<FieldReceiver> receiversOf(const FieldScene& scene, uvec2 extent);
+
+/// Whether the way of `distance` metres along the unit direction is free of solids.
+bool isClear(const FieldSteps& steps, const glm::dvec3& from, const glm::dvec3& direction, double distance);
+
+/// The share of a sphere's solid angle that is seen, by side^2 stratified rays.
+double sphereSeen(const FieldSteps& steps, const glm::dvec3& from, const glm::dvec3& centre, double radius, int side, uint32_t seed);
+
+/// One value a receiver, on all processors.
+std::vector<double> eachOf(const std::vector<FieldReceiver>& receivers, const std::function<double(const FieldReceiver&, uint32_t)>& value);
+
+} // namespace antumbra::truth
