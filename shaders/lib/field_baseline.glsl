@@ -53,7 +53,7 @@ float coneVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, floa
     FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     if (at.settled >= 0.0)
         return at.settled;
-    FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, max(kFieldLeastRadius, min(at.distance, 0.5 * radius)));
+    FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, min(at.distance, 0.5 * radius));
     float least = 1.0, share = 1.0, t = 0.0, f = at.distance, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
         f = i > 0u ? fieldDistance(fields, p + at.axis * t) : f;

@@ -6,7 +6,6 @@
 #include "lib/hemisphere.glsl"
 
 const uint kFieldMarchSteps = 256u; // receivers that lights graze need that many
-const float kFieldLeastRadius = 1.0e-3; // metres, of a cone where it begins: one without width would never get on its way
 const uint kFieldMostCones = 16u;
 
 // Share of a cap that a plane through its apex leaves clear: `m` is the sine of the plane's angle to the axis as a share of `sine`, that of
@@ -159,7 +158,7 @@ float subConeDistance[kFieldMostCones];
 // How the distance changes across the axis, by steps to both sides.
 struct FieldSlope
 {
-    float least; // in both ways alike: 0 on a ridge, in the middle of what is thin
+    vec3 across; // in both ways alike: short on a ridge, in the middle of what is thin
     float greatest; // on one side
 };
 
@@ -169,8 +168,14 @@ FieldSlope slopeAcross(FieldsBlock fields, vec3 p, vec3 axis, float distanceHere
     vec2 change[2] = vec2[2](vec2(0.0), vec2(0.0));
     for (int i = 0; i < 4; ++i)
         change[i >> 1][i & 1] = (fieldDistance(fields, p + frame[i & 1] * (i < 2 ? nudge : -nudge)) - distanceHere) / nudge;
-    return FieldSlope(min(0.5 * length(change[0] - change[1]), 1.0), min(length(max(abs(change[0]), abs(change[1]))), 1.0));
+    vec2 across = 0.5 * (change[0] - change[1]);
+    return FieldSlope(frame[0] * across.x + frame[1] * across.y, clamp(length(max(abs(change[0]), abs(change[1]))), 0.05, 1.0));
 }
+
+// 0 on a ridge, where the distance does not say how far an edge is; 1 where it does.
+float edgeCertainty(FieldSlope slope) { return clamp((length(slope.across) - 0.1) / 0.3, 0.0, 1.0); }
+
+const float kSlopeNudge = 0.3; // of the cone's radius
 
 // How far a cone that is blocked in its middle is blocked. Across the edge of a wedge the distance rises by less than one goes, and the edge is
 // as much farther; in the middle of what is thin it is level, and the nearest cone that is clear says how far it reaches at most.
@@ -184,15 +189,15 @@ float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
     }
     most = max(most, depth);
     vec3 at = cone.apex + cone.axis * subConeAt[k];
-    FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], 0.3 * radiusAt(cone, subConeAt[k]));
-    return mix(most, min(depth / max(slope.greatest, 0.05), most), clamp((slope.least - 0.1) / 0.3, 0.0, 1.0));
+    FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], kSlopeNudge * radiusAt(cone, subConeAt[k]));
+    return mix(most, min(depth / slope.greatest, most), edgeCertainty(slope));
 }
 
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
 float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, uint count)
 {
     FieldReceiver at = fieldReceiver(fields, p, centre, radius);
-    float radiusHere = max(kFieldLeastRadius, min(at.distance, 0.5 * radius)), end = at.distanceLight - radius;
+    float radiusHere = min(at.distance, 0.5 * radius), end = at.distanceLight - radius;
     if (at.settled >= 0.0 || end <= 0.0)
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);

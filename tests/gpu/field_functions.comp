@@ -5,12 +5,35 @@
 #include "lib/field.glsl"
 #include "lib/field_cone.glsl"
 #include "lib/field_baseline.glsl"
+#define POLYGON_PLACES 6
+#define POLYGON_CORNERS 16
+#include "lib/cone_polygon.glsl"
+#include "lib/field_cells.glsl"
 
 #ifdef CAP_COVERAGE
 
 struct In { float m; float sine; };
 struct Out { float share; };
 Out evaluate(In x) { return Out(capCoverage(x.m, x.sine)); }
+
+#elif defined(CELLS)
+
+// A parallelogram that faces the point.
+struct In { vec3 position; vec3 normal; vec3 corner; vec3 edgeA; vec3 edgeB; uint cells; FieldsBlock fields; };
+struct Out { float value; uint evaluations; };
+Out evaluate(In x)
+{
+    vec3 a = x.corner - x.position, across = cross(x.edgeA, x.edgeB);
+    vec3 corners[4] = vec3[4](a, a + x.edgeA, a + x.edgeA + x.edgeB, a + x.edgeB);
+    mat3 frame = tangentFrame(x.normal);
+    beginPolygon(kCellLight + 1);
+    bool isTurned = dot(a, across) > 0.0;
+    for (int i = 0; i < 4; ++i)
+        addCellCorner(frame, corners[isTurned ? i : 3 - i], corners[isTurned ? (i + 1) % 4 : (6 - i) % 4]);
+    vec3 normal = normalize(across) * (isTurned ? 1.0 : -1.0);
+    float share = cellVisibility(x.fields, x.position, frame, vec4(normal, dot(normal, a)), x.cells);
+    return Out(share, fieldEvaluations);
+}
 
 #else
 

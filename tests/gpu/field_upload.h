@@ -49,6 +49,17 @@ struct FieldAsk
     uint32_t cones;
     shader::FieldsBlock fields;
 };
+/// A parallelogram in `cells` parts, for a surface point.
+struct CellsAsk
+{
+    vec3 position;
+    vec3 normal;
+    vec3 corner;
+    vec3 edgeA;
+    vec3 edgeB;
+    uint32_t cells;
+    shader::FieldsBlock fields;
+};
 struct FieldSaid
 {
     float value;

@@ -146,13 +146,25 @@ Profile profileOf(gpu::Device& device, const std::vector<SDFPrimitive>& blockers
     return profile;
 }
 
+TEST_F(FieldVisibility, PointsMayBeAsNearASurfaceAsTheyLike)
+{
+    const FieldUpload uploaded(device(), {fieldOf({kFloor, box({3, 1, 0}, {1, 1, 1})})});
+    for (const std::string_view method : {"QUILEZ", "ONE_CONE", "SUB_CONES"}) {
+        std::vector<FieldAsk> asks;
+        for (const float height : {1e-2f, 1e-3f, 1e-4f, 1e-5f, 1e-6f})
+            asks.push_back({{0, height, 0}, {0, 5, 0}, 1, 7, uploaded[0]});
+        for (const FieldSaid& each : runKernel<FieldSaid>(device(), kFieldKernel, method, asks))
+            EXPECT_GT(each.value, 0.999f) << method;
+    }
+}
+
 // A smooth penumbra's second difference is below 0.001 here. Cones find their narrowest place to a tolerance, which shows as steps of a
 // part of one cone's share; where what blocks is thinner than a cone, whole cones turn dark at once.
 TEST_F(FieldVisibility, PenumbrasHaveNoBands)
 {
     for (const uint32_t cones : {1u, 4u, 7u, 16u}) {
         const float share = 1.0f / static_cast<float>(cones);
-        EXPECT_LT(profileOf(device(), {box({2, 2, 0}, {2, 0.3f, 4})}, cones).roughest, 0.03) << "edge " << cones;
+        EXPECT_LT(profileOf(device(), {box({2, 2, 0}, {2, 0.3f, 4})}, cones).roughest, std::max(0.03f, 0.2f * share)) << "edge " << cones;
         EXPECT_LT(profileOf(device(), {ball({0, 2, 0}, 0.5f)}, cones).roughest, 0.03) << "ball " << cones;
         EXPECT_LT(profileOf(device(), {box({2, 2, 0}, {2, 0.01f, 4})}, cones).roughest, 0.75 * share) << "sheet " << cones;
     }

@@ -52,6 +52,21 @@ bool isConeClear(const FieldSteps& steps, const dvec3& from, const dvec3& axis, 
     return t >= distance;
 }
 
+/// Whether the way of `distance` metres along the unit direction is free of solids.
+bool isClear(const FieldSteps& steps, const dvec3& from, const dvec3& direction, double distance, uint64_t* evaluations = nullptr)
+{
+    double t = 0;
+    for (int i = 0; i < 2000 && t < distance; ++i) {
+        const double f = render::fieldDistance(steps, from + t * direction);
+        if (evaluations != nullptr)
+            ++*evaluations;
+        if (f < 1e-6)
+            return false;
+        t += std::max(f, 1e-5);
+    }
+    return true;
+}
+
 } // namespace
 
 std::vector<FieldScene> fieldScenes()
@@ -128,16 +143,33 @@ std::vector<FieldReceiver> receiversOf(const FieldScene& scene, uvec2 extent)
     return receivers;
 }
 
-bool isClear(const FieldSteps& steps, const dvec3& from, const dvec3& direction, double distance)
+FieldQuad quadOf(const FieldScene& scene)
 {
-    double t = 0;
-    for (int i = 0; i < 2000 && t < distance; ++i) {
-        const double f = render::fieldDistance(steps, from + t * direction);
-        if (f < 1e-6)
-            return false;
-        t += std::max(f, 1e-5);
-    }
-    return true;
+    const dvec3 centre(scene.light), facing = glm::normalize(dvec3(scene.target) - centre),
+                                     along = glm::normalize(glm::cross(facing, dvec3(0, 1, 0))), across = glm::cross(facing, along);
+    return {centre - along - 0.5 * across, 2.0 * along, across};
+}
+
+QuadSeen quadSeen(const FieldSteps& steps, const FieldReceiver& at, const FieldQuad& quad, int side, uint32_t seed)
+{
+    RandomInputs random(seed);
+    const dvec3 across = glm::cross(quad.a, quad.b);
+    const double area = glm::length(across);
+    QuadSeen seen;
+    double sum = 0;
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+            const double u = (i + random.uniform(0, 1)) / side, v = (j + random.uniform(0, 1)) / side;
+            const dvec3 way = quad.corner + u * quad.a + v * quad.b - at.position;
+            const double distance = glm::length(way),
+                         facing = std::max(glm::dot(way, at.normal), 0.0) * std::abs(glm::dot(way, across) / area);
+            const double weight = facing / std::pow(distance, 4) * area / (std::numbers::pi * side * side);
+            seen.whole += weight;
+            if (weight > 0)
+                sum += isClear(steps, at.position, way / distance, distance, &seen.evaluations) ? weight : 0;
+        }
+    seen.share = seen.whole > 0 ? sum / seen.whole : 1;
+    return seen;
 }
 
 double sphereSeen(const FieldSteps& steps, const dvec3& from, const dvec3& centre, double radius, int side, uint32_t seed)

@@ -34,11 +34,28 @@ struct FieldReceiver
 /// Of the pixels that show a surface, through an upright camera of 0.9 rad.
 std::vector<FieldReceiver> receiversOf(const FieldScene& scene, uvec2 extent);
 
-/// Whether the way of `distance` metres along the unit direction is free of solids.
-bool isClear(const FieldSteps& steps, const glm::dvec3& from, const glm::dvec3& direction, double distance);
+/// A parallelogram that shines to both sides.
+struct FieldQuad
+{
+    glm::dvec3 corner;
+    glm::dvec3 a; // its edges
+    glm::dvec3 b;
+};
+
+/// About the place of the sphere light, 2 m by 1 m, facing the camera's target.
+FieldQuad quadOf(const FieldScene& scene);
 
 /// The share of a sphere's solid angle that is seen, by side^2 stratified rays.
 double sphereSeen(const FieldSteps& steps, const glm::dvec3& from, const glm::dvec3& centre, double radius, int side, uint32_t seed);
+
+/// What is seen of a quad's cosine-weighted solid angle, by side^2 stratified rays.
+struct QuadSeen
+{
+    double share = 1;
+    double whole = 0;         // of the hemisphere's
+    uint64_t evaluations = 0; // of the field
+};
+QuadSeen quadSeen(const FieldSteps& steps, const FieldReceiver& at, const FieldQuad& quad, int side, uint32_t seed);
 
 /// One value a receiver, on all processors.
 std::vector<double> eachOf(const std::vector<FieldReceiver>& receivers, const std::function<double(const FieldReceiver&, uint32_t)>& value);

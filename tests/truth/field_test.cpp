@@ -1,11 +1,12 @@
 // Shadows of sphere lights past distance fields against rays: the paper's order of methods, and what more cones bring
-// (methods/sdf-cones.md). 128 x 72 pixels and 196 rays; 256 x 144 and 400 where ANTUMBRA_LONG is set.
+// (methods/sdf-cones.md); and quad lights by cells. 128 x 72 pixels and 196 rays; 256 x 144 and 400 where ANTUMBRA_LONG is set.
 #include "app/measure.h"
 #include "gpu/device_fixture.h"
 #include "gpu/field_upload.h"
 #include "gpu/kernel.h"
 #include "truth/field_scenes.h"
 
+#include <atomic>
 #include <cstdlib>
 
 namespace antumbra::truth {
@@ -98,6 +99,79 @@ TEST_F(FieldShadows, ConesKeepThePapersOrderAndSubConesComeClose)
     EXPECT_LE(seven.rmse, 0.015);
     EXPECT_GE(seven.ssim, 0.98);
     EXPECT_LE(seven.evaluations, 1.5 * quilez.evaluations);
+}
+
+class FieldCells : public DeviceTest
+{
+protected:
+    static constexpr uvec2 kExtent{96, 54};
+
+    /// Those whose horizon the whole quad is over or crosses.
+    static std::vector<FieldReceiver> litReceivers(const FieldScene& scene, const FieldQuad& quad)
+    {
+        std::vector<FieldReceiver> receivers = receiversOf(scene, kExtent);
+        std::erase_if(receivers, [&](const FieldReceiver& at) { return quadSeen({}, at, quad, 4, 0).whole < 1e-6; });
+        return receivers;
+    }
+
+    Measured cells(const FieldScene& scene, const FieldQuad& quad, const std::vector<FieldReceiver>& receivers,
+                   const std::vector<double>& truth, uint32_t count)
+    {
+        const FieldUpload uploaded(device(), {scene.steps});
+        std::vector<CellsAsk> asks;
+        for (const FieldReceiver& at : receivers)
+            asks.push_back({vec3(at.position), vec3(at.normal), vec3(quad.corner), vec3(quad.a), vec3(quad.b), count, uploaded[0]});
+        Measured measured;
+        const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, "CELLS", asks);
+        for (size_t i = 0; i < said.size(); ++i) {
+            EXPECT_TRUE(said[i].value >= 0 && said[i].value <= 1) << scene.name;
+            measured.rmse += std::pow(said[i].value - truth[i], 2) / static_cast<double>(said.size());
+            measured.evaluations += static_cast<double>(said[i].evaluations) / static_cast<double>(said.size());
+        }
+        measured.rmse = std::sqrt(measured.rmse);
+        return measured;
+    }
+
+    static Measured rays(const FieldScene& scene, const FieldQuad& quad, const std::vector<FieldReceiver>& receivers,
+                         const std::vector<double>& truth, int side)
+    {
+        std::atomic<uint64_t> evaluations = 0;
+        const std::vector<double> seen = eachOf(receivers, [&](const FieldReceiver& at, uint32_t seed) {
+            const QuadSeen found = quadSeen(scene.steps, at, quad, side, seed + 1000000);
+            evaluations += found.evaluations;
+            return found.share;
+        });
+        Measured measured{.evaluations = static_cast<double>(evaluations) / static_cast<double>(receivers.size())};
+        for (size_t i = 0; i < seen.size(); ++i)
+            measured.rmse += std::pow(seen[i] - truth[i], 2) / static_cast<double>(seen.size());
+        measured.rmse = std::sqrt(measured.rmse);
+        return measured;
+    }
+};
+
+TEST_F(FieldCells, EightCellsSeeQuadsAsManyRaysDo)
+{
+    for (const FieldScene& scene : fieldScenes()) {
+        const FieldQuad quad = quadOf(scene);
+        const std::vector<FieldReceiver> receivers = litReceivers(scene, quad);
+        const std::vector<double> truth =
+            eachOf(receivers, [&](const FieldReceiver& at, uint32_t seed) { return quadSeen(scene.steps, at, quad, 20, seed).share; });
+        const auto told = [&](const char* what, int count, const Measured& found) {
+            std::printf("%-6s %2d %-5s RMSE %.4f  evaluations %.1f\n", scene.name.c_str(), count, what, found.rmse, found.evaluations);
+            return found;
+        };
+        const Measured one = told("cells", 1, cells(scene, quad, receivers, truth, 1)),
+                       eight = told("cells", 8, cells(scene, quad, receivers, truth, 8)),
+                       many = told("cells", 32, cells(scene, quad, receivers, truth, 32));
+        EXPECT_LE(eight.rmse, 0.02) << scene.name;
+        EXPECT_LT(eight.rmse, one.rmse) << scene.name;
+        EXPECT_LT(many.rmse, eight.rmse) << scene.name;
+        for (const int side : {3, 4}) {
+            const Measured traced = told("rays", side * side, rays(scene, quad, receivers, truth, side));
+            EXPECT_GT(traced.evaluations, 3 * eight.evaluations) << scene.name;
+            EXPECT_GT(traced.rmse, eight.rmse) << scene.name;
+        }
+    }
 }
 
 } // namespace
