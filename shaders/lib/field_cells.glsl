@@ -1,7 +1,7 @@
-// How much of a light of any outline is seen past a signed distance field: its outline is divided into cells, each with a cone of its own; the
-// nearest edge in a cone cuts its cell, and what is left is integrated by Lambert's formula (Ban, Balint, Valasek 2020, section 4.2, without
-// its samples; methods/sdf-cones.md, Lights of any shape). The approximation: one straight edge a cell. Needs lib/field_cone.glsl and
-// lib/cone_polygon.glsl, with kCellPlaces places.
+// How much of a light of any outline is seen past a signed distance field: its outline is divided into cells, each with a cone of its own;
+// the nearest edge in a cone cuts its cell, and what is left is integrated by Lambert's formula (Ban, Balint, Valasek 2020, section 4.2,
+// without its samples; methods/sdf-cones.md, Lights of any shape). The approximation: one straight edge a cell. Needs lib/field_cone.glsl
+// and lib/cone_polygon.glsl, with kCellPlaces places.
 #ifndef LIB_FIELD_CELLS_GLSL
 #define LIB_FIELD_CELLS_GLSL
 
@@ -116,8 +116,8 @@ float cellSeen(FieldsBlock fields, CellLight light, vec2 span, float whole)
     return mix(march.least > 0.0 ? whole : 0.0, seen, edgeCertainty(slope));
 }
 
-// Share of the light's form factor that is seen; 1 where none of it is over the horizon. After beginPolygon(kCellLight + 1) and addCellCorner
-// for each corner.
+// Share of the light's form factor that is seen; 1 where none of it is over the horizon. After beginPolygon(kCellLight + 1) and
+// addCellCorner for each corner.
 float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint count)
 {
     cut(kCellLight + 1, crossingOf(kCellLight + 1, vec3(0.0, 0.0, 1.0)), kCellLight, kCell, false, true);

@@ -57,8 +57,8 @@ struct FieldMarch
     FieldGap gap; // the one that may hold the least
 };
 
-// The least share of the cone's radius that is clear between `from` and `to`, to `tolerance`. Steps go past what is certain and are taken back
-// where two balls do not meet.
+// The least share of the cone's radius that is clear on the way, to `tolerance`. Steps go past what is certain and are taken back where two
+// balls do not meet.
 FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
 {
     const float kRelaxed = 1.8;
@@ -177,8 +177,8 @@ float edgeCertainty(FieldSlope slope) { return clamp((length(slope.across) - 0.1
 
 const float kSlopeNudge = 0.3; // of the cone's radius
 
-// How far a cone that is blocked in its middle is blocked. Across the edge of a wedge the distance rises by less than one goes, and the edge is
-// as much farther; in the middle of what is thin it is level, and the nearest cone that is clear says how far it reaches at most.
+// How far a cone that is blocked in its middle is blocked. Across the edge of a wedge the distance rises by less than one goes, and the edge
+// is as much farther; in the middle of what is thin it is level, and the nearest cone that is clear says how far it reaches at most.
 float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
 {
     float depth = -subConeLeast[k], most = 1.0;

@@ -1,5 +1,5 @@
-// How much of an area light, whatever its body, is seen past a signed distance field. Needs lib/field_cells.glsl and lib/area_occluders.glsl, with
-// POLYGON_CORNERS at least OUTLINE_CORNERS + 6.
+// How much of an area light, whatever its body, is seen past a signed distance field. Needs lib/field_cells.glsl and
+// lib/area_occluders.glsl, with POLYGON_CORNERS at least OUTLINE_CORNERS + 6.
 #ifndef LIB_FIELD_LIGHT_GLSL
 #define LIB_FIELD_LIGHT_GLSL
 

@@ -43,6 +43,14 @@ TEST_F(FieldCells, AnEdgeHidesWhatIsBehindIt)
     }
 }
 
+TEST_F(FieldCells, WhatIsBehindTheLightHidesNothing)
+{
+    const FieldUpload uploaded(device(), {fieldOf({kFloor, box({0, 4.55f, 0}, {9, 0.5f, 9})})});
+    for (const uint32_t cells : {1u, 8u})
+        for (const FieldSaid& each : run({askBelow({0, 0.001f, 0}, cells, uploaded[0]), askBelow({3, 0.5f, -2}, cells, uploaded[0])}))
+            EXPECT_NEAR(each.value, 1, 0.001) << cells;
+}
+
 TEST_F(FieldCells, PenumbrasHaveNoBands)
 {
     constexpr int kSteps = 400;

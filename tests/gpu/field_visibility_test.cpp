@@ -45,6 +45,7 @@ std::vector<Hard> hardCases()
         {"on the light", {kFloor}, {0, 1, 0}, {0, 2, 0}, 1, 1},
         {"at a light without size", {kFloor}, {0, 1, 0}, {0, 1, 0}, 0, 1},
         {"the light touches a surface", {kFloor, roof}, {4, 3, 0}, {0, 3.2f, 0}, 1},
+        {"a wall behind the light", {kFloor, box({0, 7, 0}, {9, 0.95f, 9})}, p, light, 1, 1},
         {"the light is in a solid", {ball({0, 5, 0}, 2)}, p, light, 1, 0},
         {"a light without size", {kFloor, ball({1, 2, 0}, 0.5f)}, p, light, 0, 1},
         {"a hidden light without size", {kFloor, roof}, p, light, 0, 0},

@@ -151,7 +151,7 @@ TEST(Options, NumbersOutsideTheirRangeAreRefused)
 
 TEST(Options, WordsOutsideTheirListAreRefused)
 {
-    EXPECT_THAT(refusal({"eval", "colours", "c.json", "--output", "r.json"}), HasSubstr("cones, irradiance or area"));
+    EXPECT_THAT(refusal({"eval", "colours", "c.json", "--output", "r.json"}), HasSubstr("cones, irradiance, area or sdf"));
     EXPECT_THAT(refusal({"render", "a", "--output", "b.jpg"}), HasSubstr(".exr or .png"));
     EXPECT_THAT(refusal({"graph", "a", "--output", "b.exr"}), HasSubstr(".dot or .json"));
     for (const char* aov : {"normal", "=n.exr", "normal=", "normal=n.png"})
