@@ -94,6 +94,14 @@ FieldCone coneOfPolygon(CellLight light, int place, out float end)
     return coneToSphere(light.point, axis, max(distanceLight, 1.0e-6), radius, min(light.distanceHere, 0.5 * radius));
 }
 
+// Through the apex and the edge that the cone meets at its narrowest; unit, what is clear in front.
+vec3 edgePlane(FieldCone cone, FieldMarch march, FieldSlope slope)
+{
+    vec3 across = slope.across * inversesqrt(max(dot(slope.across, slope.across), 1.0e-12));
+    vec3 plane = across * march.at + cone.axis * (march.distance / slope.greatest);
+    return plane * inversesqrt(max(dot(plane, plane), 1.0e-30));
+}
+
 // The form factor of what is seen of the polygon at kCell.
 float cellSeen(FieldsBlock fields, CellLight light, vec2 span, float whole)
 {
@@ -107,11 +115,7 @@ float cellSeen(FieldsBlock fields, CellLight light, vec2 span, float whole)
         return march.least > 0.0 ? whole : 0.0;
     FieldSlope slope =
         slopeAcross(fields, cone.apex + cone.axis * march.at, cone.axis, march.distance, kSlopeNudge * radiusAt(cone, march.at));
-    vec3 across = slope.across * inversesqrt(max(dot(slope.across, slope.across), 1.0e-12));
-    vec3 plane = across * march.at + cone.axis * (march.distance / slope.greatest);
-    plane = plane * light.frame;
-    plane *= inversesqrt(max(dot(plane, plane), 1.0e-30));
-    cut(kCell, crossingOf(kCell, plane), kCellSeen, kCell, false, true);
+    cut(kCell, crossingOf(kCell, edgePlane(cone, march, slope) * light.frame), kCellSeen, kCell, false, true);
     float seen = clamp(formFactor(kCellSeen, true), 0.0, whole);
     return mix(march.least > 0.0 ? whole : 0.0, seen, edgeCertainty(slope));
 }

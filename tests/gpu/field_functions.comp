@@ -9,6 +9,7 @@
 #define POLYGON_CORNERS 16
 #include "lib/cone_polygon.glsl"
 #include "lib/field_cells.glsl"
+#include "lib/field_samples.glsl"
 
 #ifdef CAP_COVERAGE
 
@@ -16,7 +17,7 @@ struct In { float m; float sine; };
 struct Out { float share; };
 Out evaluate(In x) { return Out(capCoverage(x.m, x.sine)); }
 
-#elif defined(CELLS)
+#elif defined(CELLS) || defined(EDGE_SAMPLES)
 
 // A parallelogram that faces the point.
 struct In { vec3 position; vec3 normal; vec3 corner; vec3 edgeA; vec3 edgeB; uint cells; FieldsBlock fields; };
@@ -31,7 +32,12 @@ Out evaluate(In x)
     for (int i = 0; i < 4; ++i)
         addCellCorner(frame, corners[isTurned ? i : 3 - i], corners[isTurned ? (i + 1) % 4 : (6 - i) % 4]);
     vec3 normal = normalize(across) * (isTurned ? 1.0 : -1.0);
-    float share = cellVisibility(x.fields, x.position, frame, vec4(normal, dot(normal, a)), x.cells);
+    vec4 plane = vec4(normal, dot(normal, a));
+#ifdef CELLS
+    float share = cellVisibility(x.fields, x.position, frame, plane, x.cells);
+#else
+    float share = edgeSampleVisibility(x.fields, x.position, frame, plane, x.cells);
+#endif
     return Out(share, fieldEvaluations);
 }
 

@@ -115,14 +115,14 @@ protected:
     }
 
     Measured cells(const FieldScene& scene, const FieldQuad& quad, const std::vector<FieldReceiver>& receivers,
-                   const std::vector<double>& truth, uint32_t count)
+                   const std::vector<double>& truth, uint32_t count, std::string_view define = "CELLS")
     {
         const FieldUpload uploaded(device(), {scene.steps});
         std::vector<CellsAsk> asks;
         for (const FieldReceiver& at : receivers)
             asks.push_back({vec3(at.position), vec3(at.normal), vec3(quad.corner), vec3(quad.a), vec3(quad.b), count, uploaded[0]});
         Measured measured;
-        const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, "CELLS", asks);
+        const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, define, asks);
         for (size_t i = 0; i < said.size(); ++i) {
             EXPECT_TRUE(said[i].value >= 0 && said[i].value <= 1) << scene.name;
             measured.rmse += std::pow(said[i].value - truth[i], 2) / static_cast<double>(said.size());
@@ -157,13 +157,15 @@ TEST_F(FieldCells, EightCellsSeeQuadsAsManyRaysDo)
         const std::vector<double> truth =
             eachOf(receivers, [&](const FieldReceiver& at, uint32_t seed) { return quadSeen(scene.steps, at, quad, 20, seed).share; });
         const auto told = [&](const char* what, int count, const Measured& found) {
-            std::printf("%-6s %2d %-5s RMSE %.4f  evaluations %.1f\n", scene.name.c_str(), count, what, found.rmse, found.evaluations);
+            std::printf("%-6s %2d %-12s RMSE %.4f  evaluations %.1f\n", scene.name.c_str(), count, what, found.rmse, found.evaluations);
             return found;
         };
         const Measured one = told("cells", 1, cells(scene, quad, receivers, truth, 1)),
                        eight = told("cells", 8, cells(scene, quad, receivers, truth, 8)),
                        many = told("cells", 32, cells(scene, quad, receivers, truth, 32));
+        const Measured paper = told("edge samples", 64, cells(scene, quad, receivers, truth, 64, "EDGE_SAMPLES"));
         EXPECT_LE(eight.rmse, 0.02) << scene.name;
+        EXPECT_LT(eight.rmse, 0.5 * paper.rmse) << scene.name;
         EXPECT_LT(eight.rmse, one.rmse) << scene.name;
         EXPECT_LT(many.rmse, eight.rmse) << scene.name;
         for (const int side : {3, 4}) {
