@@ -177,9 +177,10 @@ float edgeCertainty(FieldSlope slope) { return clamp((length(slope.across) - 0.1
 
 const float kSlopeNudge = 0.3; // of the cone's radius
 
-// How far a cone that is blocked in its middle is blocked. Across the edge of a wedge the distance rises by less than one goes, and the edge
-// is as much farther; in the middle of what is thin it is level, and the nearest cone that is clear says how far it reaches at most.
-float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
+// What is seen in a cone that is blocked in its middle; `sine` of its half angle. Across the edge of a wedge the distance rises by less than
+// one goes, and the edge is as much farther. Where it is level, in the middle of what is thin, the nearest cone that is clear says how far
+// the solid reaches at most; but a rod, from which it rises steeply to both sides, hides no more than a band.
+float blockedSubConeSeen(FieldsBlock fields, FieldCone cone, uint k, uint count, float sine)
 {
     float depth = -subConeLeast[k], most = 1.0;
     vec3 place = subConePlace(k, count);
@@ -190,7 +191,10 @@ float subConeDepth(FieldsBlock fields, FieldCone cone, uint k, uint count)
     most = max(most, depth);
     vec3 at = cone.apex + cone.axis * subConeAt[k];
     FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], kSlopeNudge * radiusAt(cone, subConeAt[k]));
-    return mix(most, min(depth / slope.greatest, most), edgeCertainty(slope));
+    float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
+    float pastEdge = capCoverage(-mix(most, min(depth / slope.greatest, most), certainty), sine);
+    float besideRod = capCoverage(-depth, sine) + 1.0 - capCoverage(depth, sine);
+    return max(pastEdge, rod * besideRod);
 }
 
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
@@ -219,13 +223,13 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
     float seen = 0.0;
     for (uint k = 0u; k < count; ++k) {
         vec3 place = subConePlace(k, count);
-        float least = subConeLeast[k];
+        float least = subConeLeast[k], share = capCoverage(least, place.z * sine);
         if (least < 0.0 && least > -0.95) { // what is left of a cone that is blocked farther makes no difference
             vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
             FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
-            least = -subConeDepth(fields, cone, k, count);
+            share = blockedSubConeSeen(fields, cone, k, count, place.z * sine);
         }
-        seen += capCoverage(least, place.z * sine);
+        seen += share;
     }
     return seen / float(count);
 }

@@ -73,6 +73,16 @@ double rmseOfClass(const Path& file, const Evaluation& evaluation, std::string_v
     return std::sqrt(sum / count);
 }
 
+TEST_F(Golden, SixteenConesSeeWhatOneEdgeIsNot)
+{
+    if (!std::filesystem::exists(golden("sdf.json")))
+        GTEST_SKIP() << golden("sdf.json") << " is not there";
+    const Evaluation evaluation = evaluateSdf(device(), golden("sdf.json"), {.cones = 16});
+    for (const char* name :
+         {"thin_wire_centre", "bars", "annular", "torus_hole", "slit", "thin_slab_edge", "two_depths", "horizon", "tiny_light"})
+        EXPECT_LT(rmseOfClass(golden("sdf.json"), evaluation, name), 0.03) << name;
+}
+
 TEST_F(Golden, Sdf)
 {
     if (!std::filesystem::exists(golden("sdf.json")))
