@@ -12,7 +12,7 @@ namespace antumbra {
 using FieldSteps = std::vector<shader::FieldStepBlock>;
 
 /// Flags the first step as the start of a field.
-inline FieldSteps fieldOf(std::vector<scene::SDFPrimitive> primitives, const mat4& world = mat4{1})
+inline FieldSteps fieldOf(const std::vector<scene::SDFPrimitive>& primitives, const mat4& world = mat4{1})
 {
     FieldSteps steps;
     for (const scene::SDFPrimitive& primitive : primitives)
