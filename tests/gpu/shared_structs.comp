@@ -284,6 +284,9 @@ void echo(CounterBlock b)
     put(b.negativePixels);
     put(b.fallbackPixels);
     put(b.pieces);
+    put(b.fieldEvaluations);
+    put(b.lightVertices);
+    put(b.silhouetteVertices);
 }
 
 #elif defined(CONE_CASE)
@@ -505,6 +508,7 @@ void echo(AreaShade b)
     put(b.firstLight);
     put(b.endLight);
     put(b.mostPieces);
+    put(b.mostPlanes);
     put(b.rays);
     put(b.frameIndex);
     put(b.pixelScale);

@@ -158,7 +158,7 @@ TEST_F(SharedStructs, CounterBlock)
 {
     expectSameLayout<shader::CounterBlock>("COUNTER_BLOCK", [](const auto& b) {
         return wordsOf(b.raysConsidered, b.raysTraced, b.cones, b.clampedPixels, b.nanPixels, b.infPixels, b.negativePixels,
-                       b.fallbackPixels, b.pieces);
+                       b.fallbackPixels, b.pieces, b.fieldEvaluations, b.lightVertices, b.silhouetteVertices);
     });
 }
 
@@ -257,8 +257,8 @@ TEST_F(SharedStructs, AreaShade)
 {
     expectSameLayout<shader::AreaShade>("AREA_SHADE", [](const auto& b) {
         return wordsOf(b.area, b.tiles, b.counters, b.scene, b.frame, b.depth, b.normals, b.albedo, b.material, b.ltcMatrix, b.ltcAmplitude,
-                       b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.rays,
-                       b.frameIndex, b.pixelScale);
+                       b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.mostPlanes,
+                       b.rays, b.frameIndex, b.pixelScale);
     });
 }
 
