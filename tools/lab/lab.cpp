@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::string_view kColumns[] = {"frame", "occlusion trace"};
+constexpr std::string_view kColumns[] = {"frame", "occlusion trace", "area analytic", "area triangles", "area traced"};
 
 } // namespace
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <thread>
 
 namespace antumbra::lab {
@@ -227,13 +228,17 @@ void resume(Results& results, const Path& file)
 
 std::string tableOf(const Results& results, std::span<const std::string_view> columns)
 {
+    std::vector<std::string_view> shown;
+    const std::vector<std::string> measured = namesOf(results, &Samples::times);
+    std::ranges::copy_if(columns, std::back_inserter(shown),
+                         [&](std::string_view column) { return std::ranges::find(measured, column) != measured.end(); });
     std::string text = fmt::format("{:<52}", "medians, milliseconds");
-    for (const std::string_view column : columns)
+    for (const std::string_view column : shown)
         text += fmt::format("{:>{}}", column, kColumnWidth);
     text += fmt::format("{:>12}{:>8}\n", "rel. RMSE", "SSIM");
     for (const Row& row : results.rows) {
         text += fmt::format("{:<52}", row.point.name);
-        for (const std::string_view column : columns) {
+        for (const std::string_view column : shown) {
             const std::optional<app::Quartiles> quartiles = quartilesOf(row.samples.times, column);
             text += quartiles ? fmt::format("{:{}.2f}", quartiles->median, kColumnWidth) : fmt::format("{:>{}}", "-", kColumnWidth);
         }
