@@ -46,6 +46,7 @@ struct AreaKnobs
     uint32_t planes = 64;
     uint32_t pieces = 64;
     uint32_t rays = 16;
+    bool isProbed = false;
 };
 
 enum class FieldShadow { None, Quilez, Aaltonen, Cone, SubCones, Traced, Reference };

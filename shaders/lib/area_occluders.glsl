@@ -1,6 +1,6 @@
 // What stands before an area light as a point sees it: the silhouettes that may meet the light's outline (methods/area-shadows.md, Depth).
-// Needs what lib/light_outline.glsl needs, and AREA_OCCLUDERS. Variant TRIANGLES: past the triangles that face the point one by one (KT et al.
-// 2021, section 4.4); splits of cones need not know that they share edges.
+// Needs what lib/light_outline.glsl needs, and AREA_OCCLUDERS. Variant TRIANGLES: past the triangles that face the point one by one (KT et
+// al. 2021, section 4.4); splits of cones need not know that they share edges.
 #ifndef LIB_AREA_OCCLUDERS_GLSL
 #define LIB_AREA_OCCLUDERS_GLSL
 

@@ -1,5 +1,5 @@
-// An area light as a point sees it: the outline of its cone. Needs what lib/cone_polygon.glsl and lib/silhouette.glsl need, OUTLINE_CORNERS of
-// a light seen from a point and LIGHT_VERTICES of a light's body. Variants: PLANAR_LIGHTS alone; TRIANGLES: one face of the light at a time.
+// An area light as a point sees it: the outline of its cone. Needs what lib/cone_polygon.glsl and lib/silhouette.glsl need, OUTLINE_CORNERS
+// of a light seen from a point, LIGHT_VERTICES of a light's body. Variants: PLANAR_LIGHTS alone; TRIANGLES: one face of the light at a time.
 #ifndef LIB_LIGHT_OUTLINE_GLSL
 #define LIB_LIGHT_OUTLINE_GLSL
 

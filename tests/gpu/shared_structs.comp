@@ -12,6 +12,7 @@
 #include "shared/area.h"
 #include "shared/eval.h"
 #include "shared/prt.h"
+#include "shared/probe.h"
 
 layout(buffer_reference, scalar) writeonly buffer Words { uint word[]; };
 layout(push_constant, scalar) uniform Push
@@ -483,6 +484,32 @@ void echo(AreaTiles b)
     put(b.frame);
     put(b.depth);
     put(b.tileCount);
+}
+
+#elif defined(AREA_PROBE)
+
+#define Block AreaProbe
+void echo(AreaProbe b)
+{
+    put(b.area);
+    put(b.lines);
+    put(b.scratch);
+    put(b.frame);
+    put(b.depth);
+    put(b.normals);
+    put(b.mostPlanes);
+    put(b.pixel.x);
+    put(b.pixel.y);
+}
+
+#elif defined(PROBE_LINE)
+
+#define Block ProbeLine
+void echo(ProbeLine b)
+{
+    put(b.start);
+    put(b.end);
+    put(b.kind);
 }
 
 #elif defined(AREA_SHADE)

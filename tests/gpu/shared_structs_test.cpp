@@ -253,6 +253,18 @@ TEST_F(SharedStructs, AreaTiles)
                                         [](const auto& b) { return wordsOf(b.area, b.tiles, b.frame, b.depth, b.tileCount); });
 }
 
+TEST_F(SharedStructs, AreaProbe)
+{
+    expectSameLayout<shader::AreaProbe>("AREA_PROBE", [](const auto& b) {
+        return wordsOf(b.area, b.lines, b.scratch, b.frame, b.depth, b.normals, b.mostPlanes, b.pixel.x, b.pixel.y);
+    });
+}
+
+TEST_F(SharedStructs, ProbeLine)
+{
+    expectSameLayout<shader::ProbeLine>("PROBE_LINE", [](const auto& b) { return wordsOf(b.start, b.end, b.kind); });
+}
+
 TEST_F(SharedStructs, AreaShade)
 {
     expectSameLayout<shader::AreaShade>("AREA_SHADE", [](const auto& b) {

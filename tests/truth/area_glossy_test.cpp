@@ -138,7 +138,7 @@ TEST_P(AreaGlossy, ErrorsAgainstGgxAreThoseOfTheFit)
     unexplained = rootOfMean(unexplained, some.size()) / mean;
     fmt::print("roughness {}: off by {:.2f} % of the mean, the fit by {:.2f} %, not explained {:.2f} %\n", roughness, 100 * measured,
                100 * explained, 100 * unexplained);
-    EXPECT_LT(rootOfMean(truths, some.size()), 0.02 * mean) << "the device's truth is another";
+    EXPECT_LT(rootOfMean(truths, some.size()), 0.03 * mean) << "the device's truth is another";
     EXPECT_GT(measured, 1e-3);
     EXPECT_NEAR(measured / explained, 1, 0.2);
     EXPECT_LT(unexplained, 0.3 * explained);

@@ -2,6 +2,8 @@
 #include "truth/shown.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace antumbra::truth {
 namespace {
@@ -88,6 +90,56 @@ TEST_F(AreaVariants, FewerPlanesMakeShadowsLargerBySoMuchLessTheMoreThereAre)
     }
     EXPECT_GT(before, 0);
     EXPECT_EQ(irradiance(shown, "area.planes", "64").values, all.values);
+}
+
+/// Cosine-weighted solid angle of a polygon's edges from `point`, by Lambert's formula; negative where they run the other way.
+double formFactor(const vec3& point, const vec3& normal, std::span<const shader::ProbeLine> edges)
+{
+    double sum = 0;
+    for (const shader::ProbeLine& edge : edges) {
+        const glm::dvec3 a = glm::normalize(glm::dvec3(edge.start - point)), b = glm::normalize(glm::dvec3(edge.end - point));
+        const glm::dvec3 across = glm::cross(a, b);
+        const double sine = glm::length(across);
+        if (sine > 1e-9)
+            sum += std::atan2(sine, glm::dot(a, b)) / sine * glm::dot(across, glm::dvec3(normal));
+    }
+    return 0.5 * sum;
+}
+
+// Pieces do not overlap, so that their edges, all together, give what arrives.
+TEST_F(AreaVariants, TheLinesOfAPixelGiveItsIrradiance)
+{
+    scene::SceneFile scene = darkScene();
+    scene.entities.push_back(lampAt({0, 1.4f, 0}, vec3(1)));
+    scene.entities.push_back(blocker({0.1f, 0.7f, 0.1f}, vec3(0.3f)));
+    scene.entities.push_back(blocker({-0.15f, 0.8f, -0.1f}, vec3(0.2f)));
+    Shown shown(device(), scene);
+    const scene::ImageF depth = shown.capture(Aov::Depth), found = irradiance(shown, "area.shadow", "analytic");
+    const scene::ImageF normal = shown.capture(Aov::Normal), unshadowed = irradiance(shown, "area.shadow", "none");
+    uint32_t partly = 0;
+    for (size_t pixel = 0; pixel < depth.values.size(); pixel += 5) {
+        const uvec2 at(pixel % depth.width, pixel / depth.width);
+        const vec3 point = positionAt(shown.view().camera, Shown::kExtent, at, depth.values[pixel]);
+        const double share = pixelOf(found, pixel).x / pixelOf(unshadowed, pixel).x;
+        if (!(depth.values[pixel] > 0) || point.y > 0.01f || share < 0.05 || share > 0.95)
+            continue;
+        shown.view().probedPixel = ivec2(at);
+        shown.draw(1 + gpu::kFramesInFlight);
+        std::vector<shader::ProbeLine> lights, pieces;
+        for (const shader::ProbeLine& line : shown.renderer().probeLines())
+            if (line.kind != shader::kProbeSilhouette)
+                (line.kind == shader::kProbeLight ? lights : pieces).push_back(line);
+        ASSERT_EQ(lights.size(), 4u);
+        const vec3 up = pixelOf(normal, pixel);
+        EXPECT_NEAR(formFactor(point, up, lights), pixelOf(unshadowed, pixel).x, 2e-3 * pixelOf(unshadowed, pixel).x);
+        EXPECT_NEAR(formFactor(point, up, pieces), pixelOf(found, pixel).x, 2e-3 * pixelOf(unshadowed, pixel).x);
+        ++partly;
+    }
+    EXPECT_GT(partly, 20u);
+    shown.view().probedPixel.reset();
+    shown.draw(1 + gpu::kFramesInFlight);
+    EXPECT_TRUE(shown.renderer().probeLines().empty());
+    EXPECT_EQ(std::ranges::count(stepsOf(shown), "area probe"), 0);
 }
 
 } // namespace

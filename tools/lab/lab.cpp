@@ -33,6 +33,8 @@ bool Lab::run()
 {
     const bool isDone = warmUp() && measureErrors() && measureTimes();
     record_.finish(kColumns);
+    if (isDone && sweep_.fit)
+        fmt::print("{}", fitOf(record_.results, *sweep_.fit));
     return isDone;
 }
 

@@ -251,4 +251,28 @@ std::string tableOf(const Results& results, std::span<const std::string_view> co
     return text;
 }
 
+std::string fitOf(const Results& results, const app::SweepFit& fit)
+{
+    std::vector<std::vector<double>> quantities(fit.counters.size());
+    std::vector<double> values;
+    for (const Row& row : results.rows) {
+        const std::optional<app::Quartiles> time = quartilesOf(row.samples.times, fit.time);
+        std::vector<double> counted;
+        for (const std::string& counter : fit.counters)
+            if (const std::optional<app::Quartiles> count = quartilesOf(row.samples.counters, counter))
+                counted.push_back(count->median);
+        if (!time || counted.size() < quantities.size())
+            continue;
+        values.push_back(time->median);
+        for (size_t i = 0; i < counted.size(); ++i)
+            quantities[i].push_back(counted[i]);
+    }
+    const app::LinearFit found = app::fitLinear(quantities, values);
+    std::string line = fmt::format("{}: {:.3g} ms", fit.time, found.weights[0]);
+    for (size_t i = 0; i < fit.counters.size(); ++i)
+        line +=
+            fmt::format(" {} {:.3g} ns a {}", found.weights[i + 1] < 0 ? "-" : "+", 1e6 * std::abs(found.weights[i + 1]), fit.counters[i]);
+    return line + fmt::format("; R^2 {:.4f} over {} rows\n", found.rSquared, values.size());
+}
+
 } // namespace antumbra::lab

@@ -272,6 +272,7 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                                  const FieldFrame& fields, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     hasReference_ = false;
+    probe_.beginFrame();
     if (view.areaLights.empty()) {
         skipAll(graph);
         return {};
@@ -291,6 +292,8 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
     const auto scale = static_cast<uint32_t>(frame.scale);
     const LitPixels pixels{.extent = (graph.extent(g.depth) + scale - 1u) / scale, .scale = scale};
     frame.seenPastFields = fieldShadows_.declare(graph, view, slot, fields, g, frame.area, bodies_.lightCount(), pixels, counters);
+    if (view.probedPixel)
+        probe_.declare(graph, slot, g, frame.area, *view.probedPixel, view.knobs.area.planes);
     AreaLit lit;
     for (const AreaLightRange& range : bodies_.ranges()) {
         if (!frame.tiles && (range.shadow == LightShadow::Analytic || range.shadow == LightShadow::Triangles))
