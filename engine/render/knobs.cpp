@@ -34,6 +34,7 @@ constexpr KnobChoice kCullings[] = {
 };
 constexpr KnobChoice kScales[] = {choice("1", Scale::Full), choice("1/2", Scale::Half), choice("1/4", Scale::Quarter)};
 constexpr KnobChoice kSwitch[] = {{"on", 1}, {"off", 0}};
+constexpr KnobChoice kExtra[] = {{"off", 0}, {"on", 1}};
 constexpr KnobChoice kLightShadows[] = {
     choice("none", scene::LightShadow::None),           choice("analytic", scene::LightShadow::Analytic),
     choice("triangles", scene::LightShadow::Triangles), choice("traced", scene::LightShadow::Traced),
@@ -152,7 +153,7 @@ constexpr KnobDescription kTable[] = {
     knob<kArea, &Area::planes>("area.planes", {4, 64, 1}, "silhouette planes an occluder; with fewer than it has its shadow grows"),
     knob<kArea, &Area::pieces>("area.pieces", {1, 4096, 1}, "polygons of light a pixel and light; the rest of its shadow is sampled"),
     knob<kArea, &Area::rays>("area.rays", {1, 4096, 1}, "shadow rays a pixel and light, where it is traced"),
-    knob<kArea, &Area::isProbed>("area.probe", kSwitch, "draws the lights, silhouettes and visible pieces of the pixel under the mouse"),
+    knob<kArea, &Area::isProbed>("area.probe", kExtra, "draws the lights, silhouettes and visible pieces of the pixel under the mouse"),
     knob<kSdf, &SdfKnobs::shadow>("sdf.shadow", kFieldShadows, "how distance fields shadow area lights"),
     knob<kSdf, &SdfKnobs::epsilon>("sdf.epsilon", {0.01, 1, 0}, "share of a cone's width that a step of sdf.shadow=cone may go past"),
     knob<kSdf, &SdfKnobs::cones>("sdf.cones", kFieldCones, "cones a sphere light of sdf.shadow=sub-cones"),
