@@ -66,15 +66,40 @@ bool outlineMissesSilhouette()
     return misses;
 }
 
-// Of the edges from `first` on at most mostPlanes, every so many-th: what they bound is more than the body hides.
+void swapEdges(int a, int b)
+{
+    vec3 start = edgeStarts[a], span = edgeSpans[a];
+    vec4 plane = edgePlanes[a];
+    edgeStarts[a] = edgeStarts[b];
+    edgeSpans[a] = edgeSpans[b];
+    edgePlanes[a] = edgePlanes[b];
+    edgeStarts[b] = start;
+    edgeSpans[b] = span;
+    edgePlanes[b] = plane;
+}
+
+// Of the silhouette that was gathered last, from `first` on, at most mostPlanes edges, evenly around: what they bound is more than the body
+// hides.
 int endOfFewer(int first)
 {
-    int count = edgeCount - first, kept = min(count, mostPlanes);
-    for (int i = 0; i < kept && kept < count; ++i) {
-        int from = first + i * count / kept;
-        edgeStarts[first + i] = edgeStarts[from];
-        edgeSpans[first + i] = edgeSpans[from];
-        edgePlanes[first + i] = edgePlanes[from];
+    int kept = min(edgeCount - first, mostPlanes);
+    if (kept == edgeCount - first)
+        return edgeCount;
+    vec3 middle = vec3(0.0);
+    for (int k = 0; k < endCount; ++k)
+        middle += edgeEnds[k];
+    middle = unitOrZero(middle);
+    vec3 across = unitOrZero(edgePlanes[first].xyz - middle * dot(middle, edgePlanes[first].xyz)), beside = cross(middle, across);
+    for (int i = 0; i < kept; ++i) {
+        float turn = 6.28318531 * float(i) / float(kept), most = -2.0;
+        vec3 wanted = across * cos(turn) + beside * sin(turn);
+        int best = first + i;
+        for (int k = first + i; k < edgeCount; ++k) {
+            float like = dot(edgePlanes[k].xyz, wanted);
+            best = like > most ? k : best;
+            most = max(most, like);
+        }
+        swapEdges(first + i, best);
     }
     return first + kept;
 }
