@@ -1,6 +1,6 @@
 // Light of area lights that reaches what is seen, past what stands before them. Variants: SHADOW is kAreaUnshadowed, kAreaAnalytic (KT et al.
 // 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its points anew each frame; GLOSSY
-// reflects by GGX too; COMPUTE_BVH traces without ray queries; sizes as in lib/area.glsl.
+// reflects by GGX too; COMPUTE_BVH traces without ray queries; TRIANGLES and sizes as in lib/area.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -73,7 +73,7 @@ struct Received
 const uint kMostMattering = 24u; // occluders of a pixel and light whose spheres meet the light's cone
 uint matters[kMostMattering];
 uint matterCount = 0u;
-uint pieceCount = 0u;
+uint pieceCount = 0u, lightVertexCount = 0u, silhouetteVertexCount = 0u;
 bool isFallback = false;
 
 Surface surfaceAt(ivec2 pixel, float depth)
@@ -189,9 +189,9 @@ float sampledPast(BodyArrays arrays, vec3 point, bool isWanted)
     return seen;
 }
 
-Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
+// Of the light, or of its face `litFace`.
+Received receivedOf(AreaBlock area, AreaLightBlock light, uint index, BodyBlock body, Surface s, ivec2 pixel)
 {
-    BodyBlock body = Bodies(area.arrays.bodies).body[light.body];
     if (!beginLight(area.arrays, body, s.position) || !isOutlineAbove(s.normal))
         return Received(vec3(0.0), vec3(0.0));
 #if SHADOW == 1
@@ -210,12 +210,29 @@ Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, i
 #endif
 #endif
     pieceCount += diffuse.pieces;
+    lightVertexCount += uint(outlineCount);
+    silhouetteVertexCount += uint(edgeCount);
     isFallback = isFallback || diffuse.fallbacks > 0u || isOccluderLost || isLightLost;
     Received sum = Received(light.radiance * (kPi * diffuse.visible), vec3(0.0));
 #ifdef GLOSSY
     sum.specular = light.radiance * (s.f0 * lobe.amplitude.x + (1.0 - s.f0) * lobe.amplitude.y) * secondShare.visible;
 #endif
     return sum;
+}
+
+Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
+{
+    BodyBlock body = Bodies(area.arrays.bodies).body[light.body];
+#ifdef TRIANGLES
+    Received sum = Received(vec3(0.0), vec3(0.0));
+    for (litFace = 0u; litFace < body.faceCount; ++litFace) {
+        Received one = receivedOf(area, light, index, body, s, pixel);
+        sum = Received(sum.diffuse + one.diffuse, sum.specular + one.specular);
+    }
+    return sum;
+#else
+    return receivedOf(area, light, index, body, s, pixel);
+#endif
 }
 
 #endif
@@ -225,10 +242,13 @@ void count(Received sum)
     vec3 both = sum.diffuse + sum.specular;
     bool nan = any(isnan(both)), inf = !nan && any(isinf(both)), negative = !nan && any(lessThan(min(sum.diffuse, sum.specular), vec3(0.0)));
     uint pieces = subgroupAdd(pieceCount), fallbacks = subgroupAdd(uint(isFallback)), nans = subgroupAdd(uint(nan)),
-         infs = subgroupAdd(uint(inf)), negatives = subgroupAdd(uint(negative));
+         infs = subgroupAdd(uint(inf)), negatives = subgroupAdd(uint(negative)), corners = subgroupAdd(lightVertexCount),
+         silhouettes = subgroupAdd(silhouetteVertexCount);
     if (!subgroupElect() || pieces + fallbacks + nans + infs + negatives == 0u)
         return;
     atomicAdd(Counters(pc.counters).block.pieces, pieces);
+    atomicAdd(Counters(pc.counters).block.lightVertices, corners);
+    atomicAdd(Counters(pc.counters).block.silhouetteVertices, silhouettes);
     atomicAdd(Counters(pc.counters).block.fallbackPixels, fallbacks);
     atomicAdd(Counters(pc.counters).block.nanPixels, nans);
     atomicAdd(Counters(pc.counters).block.infPixels, infs);
@@ -263,6 +283,7 @@ void main()
     if (depth > 0.0) {
         AreaBlock area = Areas(pc.area).block;
         Surface s = surfaceAt(pixel, depth);
+        mostPlanes = pc.mostPlanes;
         for (uint i = pc.firstLight; i < pc.endLight; ++i) {
             AreaLightBlock light = Lights(area.lights).block[i];
 #if SHADOW == 2

@@ -119,6 +119,20 @@ Differences differencesOf(const scene::ImageF& irradiance, const Truth& truth)
     return differences;
 }
 
+/// To a diagonal (Gauss, Jordan). `sizes` are what the diagonal was before: next to nothing of one left is no equation.
+void eliminate(std::vector<std::vector<double>>& equations, const std::vector<double>& sizes)
+{
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        if (!(equations[i][i] > 1e-12 * sizes[i]))
+            throw Error("the quantities follow from each other, or are too few: nothing can be fitted", "fit");
+        for (size_t row = 0; row < sizes.size(); ++row) {
+            const double share = row == i ? 0 : equations[row][i] / equations[i][i];
+            for (size_t column = i; column <= sizes.size(); ++column)
+                equations[row][column] -= share * equations[i][column];
+        }
+    }
+}
+
 } // namespace
 
 Quartiles quartilesOf(std::span<const double> values)
@@ -127,6 +141,37 @@ Quartiles quartilesOf(std::span<const double> values)
     std::vector<double> sorted(values.begin(), values.end());
     std::ranges::sort(sorted);
     return {quantile(sorted, 0.25), quantile(sorted, 0.5), quantile(sorted, 0.75)};
+}
+
+LinearFit fitLinear(std::span<const std::vector<double>> quantities, std::span<const double> values)
+{
+    const size_t count = quantities.size() + 1;
+    const auto quantity = [&](size_t i, size_t row) { return i == 0 ? 1.0 : quantities[i - 1].at(row); };
+    // The normal equations, the right side in the last column.
+    std::vector<std::vector<double>> equations(count, std::vector<double>(count + 1));
+    for (size_t row = 0; row < values.size(); ++row)
+        for (size_t i = 0; i < count; ++i)
+            for (size_t j = 0; j <= count; ++j)
+                equations[i][j] += quantity(i, row) * (j < count ? quantity(j, row) : values[row]);
+    std::vector<double> sizes;
+    for (size_t i = 0; i < count; ++i)
+        sizes.push_back(equations[i][i]);
+    eliminate(equations, sizes);
+
+    LinearFit fit;
+    for (size_t i = 0; i < count; ++i)
+        fit.weights.push_back(equations[i][count] / equations[i][i]);
+    double sum = 0, squares = 0, left = 0;
+    for (size_t row = 0; row < values.size(); ++row) {
+        double found = 0;
+        for (size_t i = 0; i < count; ++i)
+            found += fit.weights[i] * quantity(i, row);
+        sum += values[row];
+        squares += values[row] * values[row];
+        left += (values[row] - found) * (values[row] - found);
+    }
+    fit.rSquared = 1 - left / (squares - sum * sum / static_cast<double>(values.size()));
+    return fit;
 }
 
 ImageError errorOf(const scene::ImageF& irradiance, const Truth& truth)

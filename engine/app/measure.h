@@ -4,6 +4,7 @@
 #include "scene/images.h"
 
 #include <span>
+#include <vector>
 
 namespace antumbra::app {
 
@@ -16,6 +17,17 @@ struct Quartiles
 
 /// Interpolates linearly between the two nearest values; `values` are finite, in any order, at least one.
 Quartiles quartilesOf(std::span<const double> values);
+
+/// Least squares: a value as a constant and so much of each of some quantities.
+struct LinearFit
+{
+    std::vector<double> weights; // the constant first
+    double rSquared = 0;         // share of the values' variance that it explains
+};
+
+/// `quantities`: as many each as there are `values`, which are more than weights, and do not all follow from the others. Throws Error
+/// where they do.
+LinearFit fitLinear(std::span<const std::vector<double>> quantities, std::span<const double> values);
 
 /// Pictures of one view and one size, as the renderer captures them.
 struct Truth

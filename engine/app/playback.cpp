@@ -1,5 +1,6 @@
 #include "app/playback.h"
 
+#include "app/light_lines.h"
 #include "app/stats.h"
 #include "base/log.h"
 
@@ -118,6 +119,12 @@ void Playback::buildOverlay(float seconds, const Pointer* pointer)
                    .keys = showsKeys_ ? std::span<const KeyHint>(keyHints_) : std::span<const KeyHint>(),
                    .message = {}},
                   knobs_, splitColumn_);
+    const bool isProbed = knobs_.area.isProbed && pointer != nullptr && !holdsPointer();
+    const ivec2 pixel = isProbed ? ivec2(pointer->position) : ivec2(-1);
+    const bool isInPicture = glm::all(glm::greaterThanEqual(pixel, ivec2(0))) && glm::all(glm::lessThan(pixel, ivec2(renderer_.extent())));
+    view_.probedPixel = isInPicture ? std::optional(pixel) : std::nullopt;
+    if (knobs_.area.isProbed)
+        drawLightLines(renderer_.probeLines(), view_.camera, renderer_.extent());
     renderer_.overlay().end();
 }
 

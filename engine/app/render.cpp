@@ -1,6 +1,7 @@
 // `antumbra render`: one moment of a scene, drawn as often as asked, written once.
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/light_visibility.h"
 #include "app/playback.h"
 #include "app/stats.h"
 #include "base/file.h"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <utility>
 
 namespace antumbra::app {
 
@@ -26,9 +28,12 @@ std::vector<Wanted> wantedAovs(const RenderOptions& options)
 {
     std::vector<Wanted> wanted;
     for (const AovOutput& output : options.aovs) {
+        if (lightOfAov(output.name))
+            continue;
         const std::optional<render::Aov> aov = render::aovOf(output.name);
         if (!aov)
-            throw Error("no such AOV; there are color, irradiance, unshadowed, occluded, albedo, normal, depth and cones", output.name);
+            throw Error("no such AOV; there are color, irradiance, unshadowed, occluded, albedo, normal, depth, cones and visibility:LIGHT",
+                        output.name);
         wanted.push_back({*aov, output.file});
     }
     if (options.output.extension() == ".exr")
@@ -84,6 +89,20 @@ public:
     }
 
     render::Renderer& renderer() { return renderer_; }
+    [[nodiscard]] uint32_t lightNamed(const std::string& name) const { return app::lightNamed(stage_.world(), view_, name); }
+
+    /// Of the diffuse irradiance that the light would give without shadows, the share that there is.
+    scene::ImageF visibilityOf(uint32_t light, const InterruptGuard& interrupt)
+    {
+        const render::FrameView whole = std::exchange(view_, viewOfLight(view_, light));
+        draw(); // forgets what the reference has of all lights
+        accumulate(interrupt);
+        const scene::ImageF lit = captured(render::Aov::Irradiance);
+        view_.areaLights[0].shadow = scene::LightShadow::None;
+        const scene::ImageF unshadowed = captured(render::Aov::Irradiance);
+        view_ = whole;
+        return shareOf(lit, unshadowed);
+    }
 
     [[nodiscard]] std::string stats(const gpu::DeviceInfo& device, const RenderOptions& options) const
     {
@@ -99,6 +118,13 @@ public:
     }
 
 private:
+    scene::ImageF captured(render::Aov aov)
+    {
+        renderer_.capture({&aov, 1});
+        draw();
+        return renderer_.captured(aov);
+    }
+
     Stage stage_;
     render::Renderer renderer_;
     render::FrameView view_;
@@ -120,6 +146,30 @@ void drawAndSave(Still& still, const RenderOptions& options, const std::vector<W
         scene::savePng(options.output, still.renderer().picture());
 }
 
+void measureAndSave(Still& still, const RenderOptions& options, const gpu::DeviceInfo& device, const InterruptGuard& interrupt)
+{
+    // A frame is reported once the device is done with it, and the one before also copied what was captured.
+    for (uint32_t frame = 0; frame < gpu::kFramesInFlight; ++frame)
+        still.draw();
+    for (uint32_t frame = 0; frame < options.frames && !interrupt.isInterrupted(); ++frame) {
+        still.draw();
+        still.measure();
+    }
+    writeText(*options.stats, still.stats(device, options));
+}
+
+/// A light of the view and the file that its visibility goes to.
+using WantedLight = std::pair<uint32_t, Path>;
+
+std::vector<WantedLight> wantedLights(const RenderOptions& options, const Still& still)
+{
+    std::vector<WantedLight> wanted;
+    for (const AovOutput& output : options.aovs)
+        if (const std::optional<std::string> light = lightOfAov(output.name))
+            wanted.emplace_back(still.lightNamed(*light), output.file);
+    return wanted;
+}
+
 } // namespace
 
 ExitCode runRender(const RenderOptions& options)
@@ -127,20 +177,15 @@ ExitCode runRender(const RenderOptions& options)
     const std::vector<Wanted> wanted = wantedAovs(options);
     gpu::Device device({});
     Still still(device, options);
+    const std::vector<WantedLight> lights = wantedLights(options, still);
     const InterruptGuard interrupt;
     still.warmUp();
     still.accumulate(interrupt);
     drawAndSave(still, options, wanted);
-    if (!options.stats)
-        return ExitCode::Done;
-    // A frame is reported once the device is done with it, and the one above also copied what was captured.
-    for (uint32_t frame = 0; frame < gpu::kFramesInFlight; ++frame)
-        still.draw();
-    for (uint32_t frame = 0; frame < options.frames && !interrupt.isInterrupted(); ++frame) {
-        still.draw();
-        still.measure();
-    }
-    writeText(*options.stats, still.stats(device.info(), options));
+    if (options.stats)
+        measureAndSave(still, options, device.info(), interrupt);
+    for (const auto& [light, file] : lights)
+        scene::saveExr(file, still.visibilityOf(light, interrupt));
     return ExitCode::Done;
 }
 

@@ -24,8 +24,7 @@ using scene::Assets;
 using scene::BodyPart;
 using scene::ConvexBody;
 
-constexpr uint32_t kSegments = 16;          // of curved lights
-constexpr uint32_t kMostLightVertices = 62; // that shaders have room for
+constexpr uint32_t kMostLightVertices = 162; // of an icosahedron whose edges are halved twice
 constexpr uint32_t kMostLightTriangles = 256;
 
 /// The mesh that an entity shows when it stands at rest.
@@ -39,7 +38,7 @@ std::vector<ConvexBody> bodiesOf(const AreaLight& light, const std::optional<sce
 {
     if (light.shape == scene::LightShape::Mesh && !mesh)
         throw Error("an AreaLight of shape mesh has no mesh", subject);
-    if (std::optional<ConvexBody> body = scene::lightBody(light, mesh ? &*mesh : nullptr, kSegments)) {
+    if (std::optional<ConvexBody> body = scene::lightBody(light, mesh ? &*mesh : nullptr, light.segments)) {
         if (body->vertices.size() <= kMostLightVertices)
             return {*std::move(body)};
         throw Error(fmt::format("an AreaLight's mesh has {} vertices, at most {} are allowed", body->vertices.size(), kMostLightVertices),
@@ -81,7 +80,7 @@ void useWhatThereIs(AreaLight& light, const std::string& subject)
 {
     using enum scene::LightShadow;
     const auto isThere = [](scene::LightShadow shadow) {
-        return shadow == None || shadow == Analytic || shadow == Traced || shadow == Reference;
+        return shadow == None || shadow == Analytic || shadow == Triangles || shadow == Traced || shadow == Reference;
     };
     if (!light.shadow || isThere(*light.shadow))
         return;

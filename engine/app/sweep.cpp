@@ -100,6 +100,15 @@ void readBake(const JsonObject& object, SweepPoint& point)
     point.truth = object.choice("truth", std::optional(point.truth), kTruths);
 }
 
+SweepFit readFit(const JsonObject& object)
+{
+    object.allowOnly({"time", "counters"});
+    SweepFit fit{.time = object.text("time", ""), .counters = object.texts("counters")};
+    if (fit.time.empty() || fit.counters.empty())
+        object.refuse("", "needs \"time\" and \"counters\"");
+    return fit;
+}
+
 SweepPoint readPoint(const JsonObject& object, Measure measure)
 {
     SweepPoint point;
@@ -140,12 +149,14 @@ Sweep loadSweep(const Path& file)
 {
     const json document = scene::parseJson(file);
     const JsonObject object(document, file, "");
-    object.allowOnly({"name", "measure", "repeats", "warmup", "grid", "points"});
+    object.allowOnly({"name", "measure", "repeats", "warmup", "fit", "grid", "points"});
     Sweep sweep;
     sweep.name = object.text("name", file.stem().string());
     sweep.measure = object.choice("measure", std::optional(sweep.measure), kMeasures);
     sweep.repeats = static_cast<uint32_t>(object.integer("repeats", static_cast<int32_t>(sweep.repeats), {1, 1000}));
     sweep.warmUp = static_cast<uint32_t>(object.integer("warmup", static_cast<int32_t>(sweep.warmUp), {1, 1000}));
+    if (object.has("fit"))
+        sweep.fit = readFit(object.object("fit"));
     const Grid common = object.has("grid") ? readGrid(document["grid"], object) : Grid{};
     const std::vector<JsonObject> points = object.objects("points");
     for (size_t i = 0; i < points.size(); ++i) {

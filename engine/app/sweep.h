@@ -6,6 +6,7 @@
 #include "base/math.h"
 #include "render/knobs.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,19 +34,28 @@ struct SweepPoint
     render::Settings settings; // over the device's defaults and the scene's own
 };
 
+/// What the medians of a time are held against, over all points: a sum of medians of counters.
+struct SweepFit
+{
+    std::string time;
+    std::vector<std::string> counters;
+};
+
 struct Sweep
 {
     std::string name;
     Measure measure = Measure::Frames;
     uint32_t repeats = 5; // rounds, each over all points
     uint32_t warmUp = 3;  // frames a point that do not count
+    std::optional<SweepFit> fit;
     std::vector<SweepPoint> points;
 };
 
-/// {"name", "measure":"frames"|"bakes", "repeats", "warmup", "grid", "points":[{"name", "scene", "size":[w,h], "time", "frames", "animate",
-/// "turn", "characters", "reference", "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a point stands for every combination of its
-/// grid, or of the sweep's where it has none of its own. A point that is a bake has "truth":"bands"|"map" in place of all that frames have,
-/// and knobs of baking alone. Throws Error of one line for unknown keys, with the nearest known, wrong types and values out of range.
+/// {"name", "measure":"frames"|"bakes", "repeats", "warmup", "fit":{"time", "counters":[...]}, "grid", "points":[{"name", "scene",
+/// "size":[w,h], "time", "frames", "animate", "turn", "characters", "reference", "settings":{KNOB:VALUE}, "grid":{KNOB:[VALUE...]}}]}: a
+/// point stands for every combination of its grid, or of the sweep's where it has none of its own. A point that is a bake has
+/// "truth":"bands"|"map" in place of all that frames have, and knobs of baking alone. Throws Error of one line for unknown keys, with the
+/// nearest known, wrong types and values out of range.
 Sweep loadSweep(const Path& file);
 
 } // namespace antumbra::app

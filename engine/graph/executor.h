@@ -7,6 +7,7 @@
 #include "gpu/timers.h"
 #include "graph/plan.h"
 
+#include <deque>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -127,7 +128,7 @@ private:
     gpu::Timers timers_;
     Recorder recorder_;
     std::vector<Realisation> realisations_;
-    std::vector<HistoryPair> histories_;
+    std::deque<HistoryPair> histories_; // images of a frame stay where they are as others come
     std::vector<Need> needs_;
     std::vector<const gpu::Image*> images_;
     std::vector<const gpu::Buffer*> buffers_;

@@ -104,10 +104,11 @@ void extractOccluders(const ecs::World& world, const scene::Assets& assets, Fram
     if (view.areaLights.empty())
         return;
     const auto& poses = world.resource<PoseStore>();
-    for (auto [bodies, matrix, pose, light] :
-         Each<const scene::OccluderBodies, const scene::WorldMatrix, ecs::Maybe<const Pose>, ecs::Maybe<const scene::LightBodies>>(world))
+    for (auto [bodies, matrix, pose, light, lit] : Each<const scene::OccluderBodies, const scene::WorldMatrix, ecs::Maybe<const Pose>,
+                                                        ecs::Maybe<const scene::AreaLight>, ecs::Maybe<const scene::LightBodies>>(world))
     {
-        const uint32_t own = light != nullptr ? lightOf(view, *light) : scene::kNoIndex;
+        const bool isSpared = light != nullptr && lit != nullptr && !light->shadowsItself;
+        const uint32_t own = isSpared ? lightOf(view, *lit) : scene::kNoIndex;
         for (uint32_t part = bodies.first; part < bodies.first + bodies.count; ++part) {
             const uint32_t joint = assets.bodyParts[part].joint;
             const bool isPosed = pose != nullptr && joint != scene::kNoIndex;

@@ -94,7 +94,8 @@ struct FrameView
     std::vector<float> morphWeights;
     Knobs knobs;
     float exposure = 1;
-    uint32_t splitColumn = 0; // columns left of it show the final picture, the rest knobs.view
+    std::optional<ivec2> probedPixel; // whose area light is taken apart
+    uint32_t splitColumn = 0;         // columns left of it show the final picture, the rest knobs.view
 
     /// What gives the first terms: null where nothing is baked or the knob turns it off.
     [[nodiscard]] const bake::Bake* shownBake() const { return knobs.prt.isShown && hasEnvironment() ? bake : nullptr; }

@@ -34,10 +34,10 @@ constexpr KnobChoice kCullings[] = {
 };
 constexpr KnobChoice kScales[] = {choice("1", Scale::Full), choice("1/2", Scale::Half), choice("1/4", Scale::Quarter)};
 constexpr KnobChoice kSwitch[] = {{"on", 1}, {"off", 0}};
+constexpr KnobChoice kExtra[] = {{"off", 0}, {"on", 1}};
 constexpr KnobChoice kLightShadows[] = {
-    choice("none", scene::LightShadow::None),
-    choice("analytic", scene::LightShadow::Analytic),
-    choice("traced", scene::LightShadow::Traced),
+    choice("none", scene::LightShadow::None),           choice("analytic", scene::LightShadow::Analytic),
+    choice("triangles", scene::LightShadow::Triangles), choice("traced", scene::LightShadow::Traced),
     choice("reference", scene::LightShadow::Reference),
 };
 constexpr KnobChoice kFieldShadows[] = {
@@ -46,8 +46,9 @@ constexpr KnobChoice kFieldShadows[] = {
     choice("reference", FieldShadow::Reference),
 };
 constexpr KnobChoice kFieldCones[] = {{"1", 1}, {"4", 4}, {"7", 7}, {"16", 16}};
-constexpr KnobChoice kGalleryLights[] = {choice("plane", GalleryLight::Plane), choice("cylinder", GalleryLight::Cylinder),
-                                         choice("cone", GalleryLight::Cone)};
+constexpr KnobChoice kGalleryLights[] = {choice("plane", GalleryLight::Plane),        choice("cylinder", GalleryLight::Cylinder),
+                                         choice("cone", GalleryLight::Cone),          choice("sphere-12", GalleryLight::Sphere12),
+                                         choice("sphere-42", GalleryLight::Sphere42), choice("sphere-162", GalleryLight::Sphere162)};
 constexpr KnobChoice kGalleryOccluders[] = {choice("cube", GalleryOccluder::Cube), choice("icosphere", GalleryOccluder::Icosphere),
                                             choice("ellipsoid", GalleryOccluder::Ellipsoid)};
 constexpr KnobChoice kFilters[] = {{"0", 0}, {"3", 3}, {"5", 5}, {"7", 7}, {"9", 9}};
@@ -149,15 +150,18 @@ constexpr KnobDescription kTable[] = {
     knob<kPrt, &PrtKnobs::window>("prt.window", {0, 1, 0}, "against ringing of baked light: how much higher bands are damped; 0 is off"),
     knob<kArea, &Area::shadow>("area.shadow", kLightShadows, "how area lights are shadowed, but for those that say so themselves"),
     knob<kArea, &Area::scale>("area.scale", kScales, "resolution of area light along each axis, as a share of the frame's"),
+    knob<kArea, &Area::planes>("area.planes", {4, 64, 1}, "silhouette planes an occluder; with fewer than it has its shadow grows"),
     knob<kArea, &Area::pieces>("area.pieces", {1, 4096, 1}, "polygons of light a pixel and light; the rest of its shadow is sampled"),
     knob<kArea, &Area::rays>("area.rays", {1, 4096, 1}, "shadow rays a pixel and light, where it is traced"),
+    knob<kArea, &Area::isProbed>("area.probe", kExtra, "draws the lights, silhouettes and visible pieces of the pixel under the mouse"),
     knob<kSdf, &SdfKnobs::shadow>("sdf.shadow", kFieldShadows, "how distance fields shadow area lights"),
     knob<kSdf, &SdfKnobs::epsilon>("sdf.epsilon", {0.01, 1, 0}, "share of a cone's width that a step of sdf.shadow=cone may go past"),
     knob<kSdf, &SdfKnobs::cones>("sdf.cones", kFieldCones, "cones a sphere light of sdf.shadow=sub-cones"),
     knob<kSdf, &SdfKnobs::cells>("sdf.cells", {1, 64, 1}, "parts of a light of another shape, each with a cone of its own"),
     knob<&Knobs::reference, &Reference::samples>("reference.samples", {0, 1e6, 1}, "directions a pixel of the reference; 0 is off"),
     knob<&Knobs::crowd, &CrowdKnobs::count>("crowd.count", {1, 200, 1}, "characters in the crowd scene"),
-    atLoading(knob<kGallery, &Gallery::light>("gallery.light", kGalleryLights, "what shines in the gallery")),
+    atLoading(
+        knob<kGallery, &Gallery::light>("gallery.light", kGalleryLights, "what shines in the gallery; spheres are of so many vertices")),
     atLoading(knob<kGallery, &Gallery::occluder>("gallery.occluder", kGalleryOccluders, "what stands in the light of the gallery")),
     atLoading(knob<kGallery, &Gallery::lights>("gallery.lights", {1, 3, 1}, "lights in the gallery")),
     atLoading(knob<kGallery, &Gallery::occluders>("gallery.occluders", {0, 3, 1}, "occluders in the gallery")),

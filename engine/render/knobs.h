@@ -43,8 +43,10 @@ struct AreaKnobs
 {
     scene::LightShadow shadow = scene::LightShadow::Analytic; // of lights that say nothing themselves
     Scale scale = Scale::Full;
+    uint32_t planes = 64;
     uint32_t pieces = 64;
     uint32_t rays = 16;
+    bool isProbed = false;
 };
 
 enum class FieldShadow { None, Quilez, Aaltonen, Cone, SubCones, Traced, Reference };
@@ -67,7 +69,7 @@ struct CrowdKnobs
     uint32_t count = 10;
 };
 
-enum class GalleryLight { Plane, Cylinder, Cone };
+enum class GalleryLight { Plane, Cylinder, Cone, Sphere12, Sphere42, Sphere162 }; // spheres of so many vertices
 enum class GalleryOccluder { Cube, Icosphere, Ellipsoid };
 
 struct GalleryKnobs

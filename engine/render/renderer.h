@@ -61,6 +61,8 @@ public:
     /// Build the overlay between frames; what it draws goes into the next.
     [[nodiscard]] Overlay& overlay() { return overlay_; }
     [[nodiscard]] FrameReport report() const;
+    /// What area light at FrameView::probedPixel was made of in the newest finished frame.
+    [[nodiscard]] std::span<const shader::ProbeLine> probeLines() const { return areaLights_.probeLines(); }
     [[nodiscard]] MemoryReport memory() const;
     /// Samples a pixel that every reference of the view has accumulated as it stands; none where nothing accumulates.
     [[nodiscard]] std::optional<uint32_t> referenceSamples() const;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr Range<float> kShare{0, 1};
 constexpr Range<float> kRadiance{0, 1e9f};
+constexpr int32_t kMostSphereVertices = 162, kMostSides = 48; // of a light: what shaders have room for
 
 constexpr Words<LightShape, 6> kLightShapes{{{"quad", LightShape::Quad},
                                              {"disk", LightShape::Disk},
@@ -81,10 +82,15 @@ void readOutline(const JsonObject& part, AreaLight& light)
     std::ranges::copy(outline, light.outline.begin());
 }
 
+void readSegments(const JsonObject& part, AreaLight& light, int32_t most)
+{
+    light.segments = static_cast<uint32_t>(part.integer("segments", static_cast<int32_t>(light.segments), {4, most}));
+}
+
 void readLightShape(const JsonObject& part, AreaLight& light)
 {
     const auto allow = [&](std::initializer_list<std::string_view> keys) {
-        part.allowOnly({"shape", "radiance", "two_sided", "shadow"}, keys);
+        part.allowOnly({"shape", "radiance", "two_sided", "self_shadow", "shadow"}, keys);
     };
     switch (light.shape) {
     case LightShape::Quad:
@@ -92,17 +98,20 @@ void readLightShape(const JsonObject& part, AreaLight& light)
         light.size = part.vector("size", light.size, kPositiveLength);
         break;
     case LightShape::Disk:
-        allow({"radius"});
+        allow({"radius", "segments"});
         light.radii = part.vectorOrNumber("radius", light.radii, kPositiveLength);
+        readSegments(part, light, kMostSides);
         break;
     case LightShape::Sphere:
-        allow({"radius"});
+        allow({"radius", "segments"});
         light.radii = vec2(part.number("radius", light.radii.x, kPositiveLength));
+        readSegments(part, light, kMostSphereVertices);
         break;
     case LightShape::Cylinder:
-        allow({"radius", "length"});
+        allow({"radius", "length", "segments"});
         light.radii = vec2(part.number("radius", light.radii.x, kPositiveLength));
         light.length = part.number("length", light.length, kPositiveLength);
+        readSegments(part, light, kMostSides);
         break;
     case LightShape::Polygon:
         allow({"vertices"});
@@ -222,6 +231,7 @@ AreaLight readAreaLight(const JsonObject& part)
     readLightShape(part, light);
     light.radiance = part.vector("radiance", light.radiance, kRadiance);
     light.isTwoSided = part.flag("two_sided", light.isTwoSided);
+    light.shadowsItself = part.flag("self_shadow", light.shadowsItself);
     if (part.has("shadow"))
         light.shadow = part.choice<LightShadow>("shadow", std::nullopt, kLightShadows);
     return light;

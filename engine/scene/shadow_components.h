@@ -23,8 +23,10 @@ struct AreaLight
     float length = 1;                             // Cylinder
     std::array<vec2, kGreatestOutline> outline{}; // Polygon: convex, x and z
     uint32_t outlineCount = 0;
-    vec3 radiance{1}; // W/(m^2 sr)
+    uint32_t segments = 16; // Disk, Sphere, Cylinder: flat ones that stand for the curved shape, as lightBody() has them
+    vec3 radiance{1};       // W/(m^2 sr)
     bool isTwoSided = false;
+    bool shadowsItself = false;        // where its own mesh blocks too
     std::optional<LightShadow> shadow; // none: as the knob area.shadow says
 };
 

@@ -1,11 +1,16 @@
 // How much of an area light's reflection reaches a point past convex bodies, in closed form: KT, Sakurikar, Narayanan 2021 on linearly
 // transformed cosines (Heitz et al. 2016, eq. 3 to 5), with splits of convex cones in place of the paper's set difference
 // (methods/area-shadows.md). Needs what lib/area_occluders.glsl needs, and AREA_SIGNED: so few occluders are left, or fewer, where light is not
-// split around them. A lobe's linear transform takes directions to a space where it is the clamped cosine about +Z.
+// split around them. Variant PIECES_ARE_TOLD calls tellPiece() for every polygon that is left: with AREA_SIGNED 0 those are what is seen.
+// A lobe's linear transform takes directions to a space where it is the clamped cosine about +Z.
 #ifndef LIB_AREA_GLSL
 #define LIB_AREA_GLSL
 
 #include "lib/area_occluders.glsl"
+
+#ifdef PIECES_ARE_TOLD
+void tellPiece(int place);
+#endif
 
 #ifdef TWO_LOBES
 const int kFrames = POLYGON_PLACES - 4; // of the search below; the other places are scratch
@@ -235,6 +240,9 @@ AreaShare visibleShare(uint mostPieces)
 #ifdef TWO_LOBES
             whole = isKnown ? secondShare.unoccluded : secondFormFactor(place, !isKnown);
             secondShare.visible += frameSign[top] * share * (whole - secondFormFactor(scratchA, isHit));
+#endif
+#ifdef PIECES_ARE_TOLD
+            tellPiece(place);
 #endif
             found.fallbacks += isFull ? 1u : 0u;
             found.pieces += isHit ? 2u : 1u;

@@ -103,6 +103,20 @@ vec3 unitOrZero(vec3 v)
 // Of the plane through the point that holds `start` and `start + span`: exacter than by both ends, which may be close together.
 vec3 planeThrough(vec3 start, vec3 span) { return unitOrZero(cross(start, unitOrZero(span))); }
 
+// The edge where some of it is in front of the cut.
+void addEdgeInFront(int first, vec3 start, vec3 span, vec4 through, bool isCut, CutPlane plane)
+{
+    vec3 end = start + span, startSeen = start, endSeen = end;
+    if (isCut) {
+        float startHeight = dot(plane.normal, start) + plane.offset, endHeight = dot(plane.normal, end) + plane.offset;
+        if (startHeight <= 0.0 && endHeight <= 0.0)
+            return;
+        startSeen = startHeight < 0.0 ? start + span * (startHeight / (startHeight - endHeight)) : start;
+        endSeen = endHeight < 0.0 ? end - span * (endHeight / (endHeight - startHeight)) : end;
+    }
+    addEdge(first, start, span, through, startSeen, endSeen);
+}
+
 void addSilhouetteEdge(int first, BodyArrays arrays, BodyBlock body, vec3 point, EdgeBlock edge, bool isCut, CutPlane plane)
 {
     uint left = edge.faces & 0xffffu, right = edge.faces >> 16u;
@@ -114,18 +128,10 @@ void addSilhouetteEdge(int first, BodyArrays arrays, BodyBlock body, vec3 point,
     vec3 a = bodyVertex(arrays, body, edge.vertices & 0xffffu) - point, b = bodyVertex(arrays, body, edge.vertices >> 16u) - point;
     vec3 start = leftFront ? b : a, end = leftFront ? a : b;
     vec3 span = end - start;
-    vec3 startSeen = start, endSeen = end;
-    if (isCut) {
-        float startHeight = dot(plane.normal, start) + plane.offset, endHeight = dot(plane.normal, end) + plane.offset;
-        if (startHeight <= 0.0 && endHeight <= 0.0)
-            return;
-        startSeen = startHeight < 0.0 ? start + span * (startHeight / (startHeight - endHeight)) : start;
-        endSeen = endHeight < 0.0 ? end - span * (endHeight / (endHeight - startHeight)) : end;
-    }
     // The planes of a face's edges say nothing to a point level with it; its own does.
     bool isOfFace = front != kNoFace && isLevel(front);
     vec4 through = isOfFace ? vec4(-bodyFace(arrays, body, front).normal, 1.0) : vec4(planeThrough(start, span), 0.0);
-    addEdge(first, start, span, through, startSeen, endSeen);
+    addEdgeInFront(first, start, span, through, isCut, plane);
 }
 
 // Where a front face goes through the cut, what lies before it ends: from crossing to crossing.
@@ -187,26 +193,38 @@ void dropFalsePlanes(int first)
     edgeCount = kept;
 }
 
-// Adds the edges that bound what the body hides. None: it hides nothing. False: the point is inside it, and all is hidden.
-bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, CutPlane plane)
+// What a body hides from a point.
+const uint kHidesNothing = 0u;
+const uint kHidesPart = 1u;
+const uint kHidesAll = 2u; // the point is inside it
+
+// Finds what findFronts() does.
+uint hidingOf(BodyArrays arrays, BodyBlock body, vec3 point)
 {
     bool isPlanar = (body.flags & kBodyPlanar) != 0u;
     bool hasFront = findFronts(arrays, body, point, 5.0e-7 * reachOf(body, point));
     if (!hasFaces)
-        return true; // a line or a place
+        return kHidesNothing; // a line or a place
     if (isPlanar && (isLevel(0u) || (!hasFront && (body.flags & kBodyFrontOnly) != 0u)))
-        return true; // edge-on, or a side that does not block
+        return kHidesNothing; // edge-on, or a side that does not block
     if ((body.flags & kBodyHollow) != 0u && greatestHeight <= body.margin)
-        return true; // what it stands for may be here
-    if (!isPlanar && !hasFront)
-        return false;
+        return kHidesNothing; // what it stands for may be here
+    return isPlanar || hasFront ? kHidesPart : kHidesAll;
+}
+
+// Adds the edges that bound what the body hides. None: it hides nothing. False: the point is inside it, and all is hidden.
+bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, CutPlane plane)
+{
+    uint hiding = hidingOf(arrays, body, point);
+    if (hiding != kHidesPart)
+        return hiding == kHidesNothing;
     int first = edgeCount;
     endCount = 0;
     for (uint i = 0u; i < body.edgeCount; ++i)
         addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);
     if (isCut)
         for (uint i = 0u; i < body.faceCount; ++i)
-            if (isPlanar || isFront(i))
+            if ((body.flags & kBodyPlanar) != 0u || isFront(i))
                 addCutFace(first, arrays, body, point, i, plane);
     dropFalsePlanes(first);
     return true;

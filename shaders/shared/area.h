@@ -119,6 +119,7 @@ struct AreaShade
     uint firstLight;
     uint endLight;
     uint mostPieces;
+    int mostPlanes; // of an occluder
     uint rays; // a light; the reference: 0 keeps the means
     uint frameIndex; // of the reference's accumulation
     int pixelScale; // of the images that are written to the G-buffer: 1, 2, 4

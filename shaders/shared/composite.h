@@ -15,6 +15,8 @@ struct CounterBlock
     uint fallbackPixels;
     uint pieces;
     uint fieldEvaluations;
+    uint lightVertices; // corners of area lights, as pixels see them
+    uint silhouetteVertices; // of what is before them, and may hide some of them
 };
 
 const uint kViewFinal = 0u;

@@ -13,6 +13,7 @@
 #include "shared/eval.h"
 #include "shared/field.h"
 #include "shared/prt.h"
+#include "shared/probe.h"
 
 layout(buffer_reference, scalar) writeonly buffer Words { uint word[]; };
 layout(push_constant, scalar) uniform Push
@@ -293,6 +294,9 @@ void echo(CounterBlock b)
     put(b.negativePixels);
     put(b.fallbackPixels);
     put(b.pieces);
+    put(b.fieldEvaluations);
+    put(b.lightVertices);
+    put(b.silhouetteVertices);
 }
 
 #elif defined(CONE_CASE)
@@ -491,6 +495,32 @@ void echo(AreaTiles b)
     put(b.tileCount);
 }
 
+#elif defined(AREA_PROBE)
+
+#define Block AreaProbe
+void echo(AreaProbe b)
+{
+    put(b.area);
+    put(b.lines);
+    put(b.scratch);
+    put(b.frame);
+    put(b.depth);
+    put(b.normals);
+    put(b.mostPlanes);
+    put(b.pixel.x);
+    put(b.pixel.y);
+}
+
+#elif defined(PROBE_LINE)
+
+#define Block ProbeLine
+void echo(ProbeLine b)
+{
+    put(b.start);
+    put(b.end);
+    put(b.kind);
+}
+
 #elif defined(AREA_SHADE)
 
 #define Block AreaShade
@@ -514,6 +544,7 @@ void echo(AreaShade b)
     put(b.firstLight);
     put(b.endLight);
     put(b.mostPieces);
+    put(b.mostPlanes);
     put(b.rays);
     put(b.frameIndex);
     put(b.pixelScale);

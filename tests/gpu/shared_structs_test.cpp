@@ -114,7 +114,7 @@ TEST_F(SharedStructs, CounterBlock)
 {
     expectSameLayout<shader::CounterBlock>("COUNTER_BLOCK", [](const auto& b) {
         return wordsOf(b.raysConsidered, b.raysTraced, b.cones, b.clampedPixels, b.nanPixels, b.infPixels, b.negativePixels,
-                       b.fallbackPixels, b.pieces);
+                       b.fallbackPixels, b.pieces, b.fieldEvaluations, b.lightVertices, b.silhouetteVertices);
     });
 }
 
@@ -209,12 +209,24 @@ TEST_F(SharedStructs, AreaTiles)
                                         [](const auto& b) { return wordsOf(b.area, b.tiles, b.frame, b.depth, b.tileCount); });
 }
 
+TEST_F(SharedStructs, AreaProbe)
+{
+    expectSameLayout<shader::AreaProbe>("AREA_PROBE", [](const auto& b) {
+        return wordsOf(b.area, b.lines, b.scratch, b.frame, b.depth, b.normals, b.mostPlanes, b.pixel.x, b.pixel.y);
+    });
+}
+
+TEST_F(SharedStructs, ProbeLine)
+{
+    expectSameLayout<shader::ProbeLine>("PROBE_LINE", [](const auto& b) { return wordsOf(b.start, b.end, b.kind); });
+}
+
 TEST_F(SharedStructs, AreaShade)
 {
     expectSameLayout<shader::AreaShade>("AREA_SHADE", [](const auto& b) {
         return wordsOf(b.area, b.tiles, b.counters, b.scene, b.frame, b.depth, b.normals, b.albedo, b.material, b.ltcMatrix, b.ltcAmplitude,
-                       b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.rays,
-                       b.frameIndex, b.pixelScale);
+                       b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.mostPlanes,
+                       b.rays, b.frameIndex, b.pixelScale);
     });
 }
 

@@ -1,5 +1,6 @@
 // The program without a window: a script replays to the same state and the same bytes, and what is wrong ends in one line.
 #include "base/error.h"
+#include "scene/images.h"
 #include "scene/process.h"
 
 #include <gmock/gmock.h>
@@ -88,6 +89,36 @@ TEST_F(ProgramTest, TheAtriumPlaysByItsBakeAndItsLightTurns)
         ASSERT_NE(pass, played["passes"].end()) << name;
         EXPECT_FALSE((*pass)["culled"]) << name;
     }
+}
+
+TEST_F(ProgramTest, VisibilityOfALightIsAShareThatItsShadowsTake)
+{
+    const Path picture = folder_ / "leak.png", visibility = folder_ / "visibility.exr";
+    const Result result = run({"render", "leak", "--output", picture, "--size", "96x54", "--set", "area.scale=1", "--aov",
+                               "visibility:lamp=" + visibility.string()});
+    if (result.code == static_cast<int>(ExitCode::NoDevice)) {
+        ASSERT_EQ(std::getenv("ANTUMBRA_REQUIRE_DEVICE"), nullptr) << "no Vulkan device";
+        GTEST_SKIP() << "no Vulkan device";
+    }
+    ASSERT_EQ(result.code, 0) << result.output;
+    const scene::ImageF share = scene::loadImageF(visibility);
+    ASSERT_EQ(share.channels, 1u);
+    EXPECT_THAT(share.values, testing::Each(AllOf(testing::Ge(0.0f), testing::Le(1.0f))));
+    const auto count = [&](auto&& is) { return std::ranges::count_if(share.values, is); };
+    EXPECT_GT(count([](float value) { return value == 1; }), 200) << "what nothing hides";
+    EXPECT_GT(count([](float value) { return value > 0.05f && value < 0.95f; }), 50) << "penumbra";
+    EXPECT_GT(count([](float value) { return value == 0; }), 50) << "umbra";
+}
+
+TEST_F(ProgramTest, VisibilityOfALightThatIsNotThereEndsInOneLineThatListsThem)
+{
+    const Result result = run({"render", "leak", "--output", folder_ / "leak.png", "--size", "96x54", "--aov",
+                               "visibility:lmap=" + (folder_ / "v.exr").string()});
+    if (result.code == static_cast<int>(ExitCode::NoDevice))
+        GTEST_SKIP() << "no Vulkan device";
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("lmap"), HasSubstr("lamp")));
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1);
 }
 
 TEST_F(ProgramTest, ABadScriptEndsInOneLineThatNamesIt)

@@ -88,30 +88,6 @@ INSTANTIATE_TEST_SUITE_P(
                               0.005}),
     [](const auto& test) { return std::string(test.param.name); });
 
-scene::SceneFile darkScene()
-{
-    scene::SceneFile scene = emptyScene();
-    scene.environment.reset();
-    scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {4, 1, 4})};
-    return scene;
-}
-
-scene::SceneEntity lampAt(vec3 position, vec3 radiance = vec3(10))
-{
-    scene::SceneEntity lamp;
-    lamp.transform.position = position;
-    lamp.transform.rotation = glm::angleAxis(kPi, vec3(1, 0, 0)); // shines down
-    lamp.areaLight = scene::AreaLight{.size = vec2(0.4f), .radiance = radiance};
-    return lamp;
-}
-
-scene::SceneEntity blocker(vec3 position, vec3 scale)
-{
-    scene::SceneEntity block = staticShape(MeshKind::Cube, position, scale);
-    block.occluder.emplace();
-    return block;
-}
-
 TEST_F(AreaTest, OutsideAClosedBoxThereIsNoLight)
 {
     scene::SceneFile scene = darkScene();

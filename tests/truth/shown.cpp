@@ -148,4 +148,28 @@ scene::SceneEntity walker(vec3 position, const std::string& clip)
     return character;
 }
 
+scene::SceneFile darkScene()
+{
+    scene::SceneFile scene = emptyScene();
+    scene.environment.reset();
+    scene.entities = {staticShape(scene::MeshKind::Plane, {0, 0, 0}, {4, 1, 4})};
+    return scene;
+}
+
+scene::SceneEntity lampAt(vec3 position, vec3 radiance)
+{
+    scene::SceneEntity lamp;
+    lamp.transform.position = position;
+    lamp.transform.rotation = glm::angleAxis(kPi, vec3(1, 0, 0)); // shines down
+    lamp.areaLight = scene::AreaLight{.size = vec2(0.4f), .radiance = radiance};
+    return lamp;
+}
+
+scene::SceneEntity blocker(vec3 position, vec3 scale)
+{
+    scene::SceneEntity block = staticShape(scene::MeshKind::Cube, position, scale);
+    block.occluder.emplace();
+    return block;
+}
+
 } // namespace antumbra::truth

@@ -95,5 +95,11 @@ scene::SceneFile emptyScene();
 scene::SceneEntity staticShape(scene::MeshKind kind, vec3 position, vec3 scale);
 scene::SceneEntity movingShape(scene::MeshKind kind, vec3 position, vec3 scale);
 scene::SceneEntity walker(vec3 position, const std::string& clip);
+/// A floor, seen by the same camera, and no environment.
+scene::SceneFile darkScene();
+/// A square lamp of 0.4 m that shines down.
+scene::SceneEntity lampAt(vec3 position, vec3 radiance = vec3(10));
+/// A cube that hides light of area lights.
+scene::SceneEntity blocker(vec3 position, vec3 scale);
 
 } // namespace antumbra::truth

@@ -120,6 +120,34 @@ TEST(Sweep, ThoseOfTheProjectAreRead)
     EXPECT_GE(count, 5u);
 }
 
+TEST(Sweep, AFitNamesATimeAndCounters)
+{
+    const Sweep sweep = sweepOf(R"({"fit": {"time": "sky", "counters": ["a", "b"]}, "points": [{"scene": "hall"}]})");
+    ASSERT_TRUE(sweep.fit);
+    EXPECT_EQ(sweep.fit->time, "sky");
+    EXPECT_THAT(sweep.fit->counters, ElementsAre("a", "b"));
+    EXPECT_THAT(refusal(R"({"fit": {"time": "sky"}, "points": [{"scene": "hall"}]})"), HasSubstr("counters"));
+}
+
+TEST(LinearFit, FindsWhatValuesAreMadeOf)
+{
+    const std::vector<std::vector<double>> quantities{{1e6, 2e6, 5e6, 3e6, 1e6}, {0, 4, 1, 7, 9}};
+    std::vector<double> values;
+    for (size_t i = 0; i < 5; ++i)
+        values.push_back(3 + 2e-6 * quantities[0][i] - 0.5 * quantities[1][i]);
+    const LinearFit exact = fitLinear(quantities, values);
+    EXPECT_THAT(exact.weights,
+                ElementsAre(testing::DoubleNear(3, 1e-6), testing::DoubleNear(2e-6, 1e-12), testing::DoubleNear(-0.5, 1e-6)));
+    EXPECT_NEAR(exact.rSquared, 1, 1e-9);
+    EXPECT_NEAR(fitLinear(std::vector<std::vector<double>>{{-1, 1, -1, 1}}, std::vector<double>{0, 1, 1, 2}).rSquared, 0.5, 1e-9);
+}
+
+TEST(LinearFit, QuantitiesThatFollowFromEachOtherAreRefused)
+{
+    EXPECT_THROW(fitLinear(std::vector<std::vector<double>>{{1, 2, 3}, {2, 4, 6}}, std::vector<double>{1, 2, 4}), Error);
+    EXPECT_THROW(fitLinear(std::vector<std::vector<double>>{{5, 5, 5}}, std::vector<double>{1, 2, 4}), Error);
+}
+
 TEST(Quartiles, LieBetweenTheValues)
 {
     const Quartiles five = quartilesOf(std::vector<double>{5, 1, 4, 2, 3});

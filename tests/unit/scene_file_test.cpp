@@ -121,7 +121,11 @@ TEST(SceneFile, ReadsEveryAreaLight)
     EXPECT_EQ(polygon.outlineCount, 3u);
     EXPECT_EQ(polygon.outline[2], vec2(1, 1));
     EXPECT_FALSE(polygon.shadow);
-    EXPECT_EQ(loadEntity(R"({"mesh": "cube", "AreaLight": {"shape": "mesh"}})").areaLight->shape, LightShape::Mesh);
+    const AreaLight mesh = *loadEntity(R"({"mesh": "cube", "AreaLight": {"shape": "mesh", "self_shadow": true}})").areaLight;
+    EXPECT_EQ(mesh.shape, LightShape::Mesh);
+    EXPECT_TRUE(mesh.shadowsItself);
+    EXPECT_FALSE(quad.shadowsItself);
+    EXPECT_EQ(loadEntity(R"({"AreaLight": {"shape": "sphere", "radius": 3, "segments": 162}})").areaLight->segments, 162u);
 }
 
 TEST(SceneFile, ReadsOccludersAndDistanceFields)
@@ -228,6 +232,7 @@ TEST(SceneFile, UnknownKeysNameTheNearestKnownOne)
     expectFault(faultOfEntity(R"({"Dynamicskinned": {}})"), {"\"DynamicSkinned\""});
     expectFault(faultOfEntity(R"({"mesh": "cube", "StaticPRT": {"bake": 1}})"), {"entities[0].StaticPRT", "\"bake\""});
     expectFault(faultOfEntity(R"({"AreaLight": {"shape": "quad", "radius": 1}})"), {"AreaLight", "\"radius\""});
+    expectFault(faultOfEntity(R"({"AreaLight": {"shape": "disk", "segments": 49}})"), {"AreaLight", "segments"});
     expectFault(faultOfEntity(R"({"AreaLight": {"shape": "sqare"}})"), {"\"sqare\"", "the nearest is"});
     expectFault(faultOfEntity(R"({"mesh": "spere"})"), {"\"spere\"", "\"sphere\""});
     expectFault(faultOfEntity(R"({"AreaLight": {}})"), {"\"shape\"", "quad"});

@@ -108,6 +108,24 @@ TEST(ShadowBodies, WhatShinesDoesNotHideItself)
     EXPECT_FALSE(Made({other, both}).assets.bodyParts[part].body.isPlanar);
 }
 
+TEST(ShadowBodies, WhatShinesHidesItselfWhereItIsToldTo)
+{
+    SceneEntity both = lamp({.shape = scene::LightShape::Mesh, .shadowsItself = true}, MeshKind::Cube);
+    both.occluder.emplace();
+    const render::FrameView view = Made({both}).extracted();
+    ASSERT_EQ(view.occluders.size(), 1u);
+    EXPECT_EQ(view.occluders[0].light, scene::kNoIndex);
+}
+
+TEST(ShadowBodies, CurvedLightsHaveAsManyFacesAsTheyAreToldTo)
+{
+    const Made made(
+        {lamp({.shape = scene::LightShape::Sphere, .segments = 162}), lamp({.shape = scene::LightShape::Disk, .segments = 24})});
+    const render::FrameView view = made.extracted();
+    EXPECT_EQ(made.assets.bodyParts[view.areaLights[0].firstPart].body.vertices.size(), 162u);
+    EXPECT_EQ(made.assets.bodyParts[view.areaLights[1].firstPart].body.vertices.size(), 24u);
+}
+
 TEST(ShadowBodies, ACharacterBlocksByHullsThatFollowItsJoints)
 {
     SceneEntity walker{.mesh = {MeshKind::File, projectPath("assets") / "characters/walker.glb"}, .isDynamicSkinned = true};

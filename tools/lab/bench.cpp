@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace antumbra::lab {
 
@@ -16,6 +17,8 @@ constexpr float kTurnRadians = 1e-3f; // so does the light
 // The first frame after a change of knobs makes buffers, and a frame is reported when the device is done with it.
 constexpr uint32_t kFramesToSettle = 1 + gpu::kFramesInFlight;
 
+constexpr std::string_view kSceneKnobs[] = {"crowd.", "gallery."}; // that entities are made by
+
 struct Counter
 {
     std::string_view name;
@@ -25,18 +28,23 @@ struct Counter
 constexpr std::array kCounters{Counter{"rays_considered", &shader::CounterBlock::raysConsidered},
                                Counter{"rays_traced", &shader::CounterBlock::raysTraced},
                                Counter{"cones", &shader::CounterBlock::cones},
+                               Counter{"pieces", &shader::CounterBlock::pieces},
+                               Counter{"light_vertices", &shader::CounterBlock::lightVertices},
+                               Counter{"silhouette_vertices", &shader::CounterBlock::silhouetteVertices},
+                               Counter{"fallback_pixels", &shader::CounterBlock::fallbackPixels},
                                Counter{"clamped_pixels", &shader::CounterBlock::clampedPixels},
                                Counter{"nan_pixels", &shader::CounterBlock::nanPixels},
                                Counter{"inf_pixels", &shader::CounterBlock::infPixels},
                                Counter{"negative_pixels", &shader::CounterBlock::negativePixels}};
 
-std::string crowdOf(const app::SweepPoint& point)
+/// What the scene was loaded with.
+render::Settings loadedWith(const app::SweepPoint& point)
 {
-    std::string count;
-    for (const auto& [key, value] : point.settings)
-        if (key == "crowd.count")
-            count = value;
-    return count;
+    render::Settings settings;
+    std::ranges::copy_if(point.settings, std::back_inserter(settings), [](const auto& setting) {
+        return std::ranges::any_of(kSceneKnobs, [&](std::string_view prefix) { return setting.first.starts_with(prefix); });
+    });
+    return settings;
 }
 
 } // namespace
@@ -52,7 +60,7 @@ Bench::Bench(gpu::Device& device, const app::SweepPoint& point)
 bool Bench::fits(const app::SweepPoint& point) const
 {
     return point.scene == point_.scene && point.size == point_.size && point.seconds == point_.seconds &&
-           point.hasCharacters == point_.hasCharacters && crowdOf(point) == crowdOf(point_);
+           point.hasCharacters == point_.hasCharacters && loadedWith(point) == loadedWith(point_);
 }
 
 render::Knobs Bench::resolve(const app::SweepPoint& point) const
@@ -89,6 +97,7 @@ bool Bench::accumulate(uint32_t samples, const app::InterruptGuard& interrupt, c
 {
     view_.knobs = resolve(point_);
     view_.knobs.reference.samples = samples;
+    view_.knobs.area.shadow = scene::LightShadow::Reference;
     do {
         if (interrupt.isInterrupted())
             return false;
@@ -101,7 +110,18 @@ bool Bench::accumulate(uint32_t samples, const app::InterruptGuard& interrupt, c
     truth_ = {.irradiance = renderer_.captured(render::Aov::Irradiance),
               .unshadowed = renderer_.captured(render::Aov::Unshadowed),
               .depth = renderer_.captured(render::Aov::Depth)};
+    if (!view_.areaLights.empty())
+        truth_.unshadowed = unshadowedByLights();
     return true;
+}
+
+scene::ImageF Bench::unshadowedByLights()
+{
+    view_.knobs.area.shadow = scene::LightShadow::None;
+    constexpr std::array aovs{render::Aov::Irradiance};
+    renderer_.capture(aovs);
+    draw();
+    return renderer_.captured(render::Aov::Irradiance);
 }
 
 app::ImageError Bench::errorOf(const app::SweepPoint& point)

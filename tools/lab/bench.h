@@ -18,14 +18,15 @@ public:
     /// Throws Error for a scene that does not load.
     Bench(gpu::Device& device, const app::SweepPoint& point);
 
-    /// The point can be measured here: same scene, size, time and crowd.
+    /// The point can be measured here: same scene as it is loaded, size and time.
     [[nodiscard]] bool fits(const app::SweepPoint& point) const;
     /// Every knob as the point has it.
     [[nodiscard]] render::Settings knobsOf(const app::SweepPoint& point) const;
 
     /// Makes pipelines, fills caches, builds every pose. Returns the milliseconds of the last of at least `frames` frames.
     double warmUp(const app::SweepPoint& point, uint32_t frames);
-    /// Draws the truth. False where it was interrupted: there is then none. `tell` is called after each frame with the samples so far.
+    /// Draws the truth: that of area lights too, but for those that say themselves how they are shadowed. False where it was interrupted:
+    /// there is then none. `tell` is called after each frame with the samples so far.
     bool accumulate(uint32_t samples, const app::InterruptGuard& interrupt, const std::function<void(uint32_t)>& tell);
     /// After accumulate().
     [[nodiscard]] app::ImageError errorOf(const app::SweepPoint& point);
@@ -38,6 +39,8 @@ public:
 
 private:
     double draw();
+    /// Irradiance with what area lights would give without shadows.
+    scene::ImageF unshadowedByLights();
     void addFrame(Samples& samples, double milliseconds) const;
     void advance(float seconds);
     [[nodiscard]] render::Knobs resolve(const app::SweepPoint& point) const;

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::string_view kColumns[] = {"frame", "occlusion trace"};
+constexpr std::string_view kColumns[] = {"frame", "occlusion trace", "area analytic", "area triangles", "area traced"};
 
 } // namespace
 
@@ -33,6 +33,8 @@ bool Lab::run()
 {
     const bool isDone = warmUp() && measureErrors() && measureTimes();
     record_.finish(kColumns);
+    if (isDone && sweep_.fit)
+        fmt::print("{}", fitOf(record_.results, *sweep_.fit));
     return isDone;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <thread>
 
 namespace antumbra::lab {
@@ -227,13 +228,17 @@ void resume(Results& results, const Path& file)
 
 std::string tableOf(const Results& results, std::span<const std::string_view> columns)
 {
+    std::vector<std::string_view> shown;
+    const std::vector<std::string> measured = namesOf(results, &Samples::times);
+    std::ranges::copy_if(columns, std::back_inserter(shown),
+                         [&](std::string_view column) { return std::ranges::find(measured, column) != measured.end(); });
     std::string text = fmt::format("{:<52}", "medians, milliseconds");
-    for (const std::string_view column : columns)
+    for (const std::string_view column : shown)
         text += fmt::format("{:>{}}", column, kColumnWidth);
     text += fmt::format("{:>12}{:>8}\n", "rel. RMSE", "SSIM");
     for (const Row& row : results.rows) {
         text += fmt::format("{:<52}", row.point.name);
-        for (const std::string_view column : columns) {
+        for (const std::string_view column : shown) {
             const std::optional<app::Quartiles> quartiles = quartilesOf(row.samples.times, column);
             text += quartiles ? fmt::format("{:{}.2f}", quartiles->median, kColumnWidth) : fmt::format("{:>{}}", "-", kColumnWidth);
         }
@@ -244,6 +249,30 @@ std::string tableOf(const Results& results, std::span<const std::string_view> co
         text += figure(&app::ImageError::relativeRmse, 3, "%", 100, 12) + figure(&app::ImageError::ssim, 4, "", 1, 8) + '\n';
     }
     return text;
+}
+
+std::string fitOf(const Results& results, const app::SweepFit& fit)
+{
+    std::vector<std::vector<double>> quantities(fit.counters.size());
+    std::vector<double> values;
+    for (const Row& row : results.rows) {
+        const std::optional<app::Quartiles> time = quartilesOf(row.samples.times, fit.time);
+        std::vector<double> counted;
+        for (const std::string& counter : fit.counters)
+            if (const std::optional<app::Quartiles> count = quartilesOf(row.samples.counters, counter))
+                counted.push_back(count->median);
+        if (!time || counted.size() < quantities.size())
+            continue;
+        values.push_back(time->median);
+        for (size_t i = 0; i < counted.size(); ++i)
+            quantities[i].push_back(counted[i]);
+    }
+    const app::LinearFit found = app::fitLinear(quantities, values);
+    std::string line = fmt::format("{}: {:.3g} ms", fit.time, found.weights[0]);
+    for (size_t i = 0; i < fit.counters.size(); ++i)
+        line +=
+            fmt::format(" {} {:.3g} ns a {}", found.weights[i + 1] < 0 ? "-" : "+", 1e6 * std::abs(found.weights[i + 1]), fit.counters[i]);
+    return line + fmt::format("; R^2 {:.4f} over {} rows\n", found.rSquared, values.size());
 }
 
 } // namespace antumbra::lab

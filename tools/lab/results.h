@@ -35,7 +35,10 @@ std::string jsonOf(const Results& results);
 /// Takes over what `file`, as jsonOf() wrote it, knows of the rows. Throws Error where it is of another sweep or another device.
 void resume(Results& results, const Path& file);
 
-/// Medians of the times that `columns` names, and the error, a line a row.
+/// How well what was asked for fits, in a line; rows that lack a figure are left out. Throws Error as fitLinear() does.
+std::string fitOf(const Results& results, const app::SweepFit& fit);
+
+/// Medians of the times that `columns` names, as far as some row has them, and the error, a line a row.
 std::string tableOf(const Results& results, std::span<const std::string_view> columns);
 
 } // namespace antumbra::lab

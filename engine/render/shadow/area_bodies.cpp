@@ -2,6 +2,8 @@
 
 #include "render/frame_copy.h"
 
+#include <array>
+
 namespace antumbra::render {
 
 namespace {
@@ -20,7 +22,9 @@ uint32_t flagsOf(const scene::BodyPart& part)
 void AreaBodies::addLights(const FrameView& view)
 {
     // The reference first: what others add is not to be part of its mean.
-    for (const LightShadow shadow : {LightShadow::Reference, LightShadow::Analytic, LightShadow::None, LightShadow::Traced}) {
+    constexpr std::array kOrder{LightShadow::Reference, LightShadow::Analytic, LightShadow::Triangles, LightShadow::None,
+                                LightShadow::Traced};
+    for (const LightShadow shadow : kOrder) {
         const uint32_t first = lightCount();
         for (uint32_t index = 0; index < view.areaLights.size(); ++index) {
             const AreaLightDraw& light = view.areaLights[index];
@@ -31,6 +35,8 @@ void AreaBodies::addLights(const FrameView& view)
                 lights_.push_back({light.radiance, bodies_.add(body, light.world, light.isTwoSided ? shader::kBodyTwoSided : 0u), index});
                 sizes_.isPlanar = sizes_.isPlanar && body.isPlanar;
                 grow(sizes_.outlineCorners, body.isPlanar ? body.corners.size() : body.vertices.size());
+                for (const scene::ConvexBody::Face& face : body.faces)
+                    grow(sizes_.faceCorners, face.cornerCount);
                 grow(sizes_.lightVertices, body.vertices.size());
                 grow(sizes_.faces, body.faces.size());
             }

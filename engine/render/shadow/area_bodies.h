@@ -13,6 +13,7 @@ struct AreaSizes
 {
     bool isPlanar = true;         // every light is
     uint32_t outlineCorners = 4;  // of a light seen from a point
+    uint32_t faceCorners = 4;     // of a light's face
     uint32_t lightVertices = 4;   // of a light's body
     uint32_t silhouetteEdges = 4; // of one occluder seen from a point
     uint32_t faces = 1;           // of a body

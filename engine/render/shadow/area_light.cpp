@@ -13,8 +13,10 @@ namespace {
 using graph::Use;
 using scene::LightShadow;
 
-constexpr uint32_t kOccludersALight = 8; // of a pixel in closed form
-constexpr uint32_t kCutsAPolygon = 12;   // corners that it may gain
+constexpr uint32_t kOccludersALight = 8;  // of a pixel in closed form; and as many of them may overlap
+constexpr uint32_t kTrianglesALight = 64; // of a pixel, where bodies are taken as these
+constexpr uint32_t kTriangleEdges = 4;    // one is made where the light's plane cuts it
+constexpr uint32_t kCutsAPolygon = 12;    // corners that it may gain
 constexpr uint32_t kMostPolygonCorners = 64;
 constexpr uint32_t kMostSilhouetteEdges = 64;
 constexpr gpu::Format kLitFormat = gpu::Format::Rgba16Float;
@@ -24,6 +26,7 @@ std::string_view passOf(LightShadow shadow)
 {
     switch (shadow) {
     case LightShadow::None: return "area unshadowed";
+    case LightShadow::Triangles: return "area triangles";
     case LightShadow::Traced: return "area traced";
     case LightShadow::Reference: return "area reference";
     default: return "area analytic";
@@ -43,24 +46,31 @@ AreaSizes rounded(const AreaSizes& sizes)
 {
     return {.isPlanar = sizes.isPlanar,
             .outlineCorners = std::min(std::bit_ceil(sizes.outlineCorners + kCutsAPolygon), kMostPolygonCorners) - kCutsAPolygon,
+            .faceCorners = 4,
             .lightVertices = std::bit_ceil(sizes.lightVertices),
             .silhouetteEdges = std::min(std::bit_ceil(sizes.silhouetteEdges), kMostSilhouetteEdges),
             .faces = (sizes.faces + 31) / 32 * 32};
 }
 
-std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes)
+/// What is asked for where one face of a light is seen past one triangle after another.
+AreaSizes ofTriangles(const AreaSizes& sizes)
+{
+    return {.outlineCorners = sizes.faceCorners, .silhouetteEdges = kTriangleEdges, .faces = sizes.faces};
+}
+
+std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes, uint32_t occluders)
 {
     const auto polygonCorners = static_cast<int>(sizes.outlineCorners + kCutsAPolygon);
     const auto edges = static_cast<int>(sizes.silhouetteEdges);
     return {{"POLYGON_PLACES", static_cast<int>(kOccludersALight) + 6},
             {"POLYGON_CORNERS", polygonCorners},
-            {"SILHOUETTE_EDGES", edges * static_cast<int>(kOccludersALight)},
+            {"SILHOUETTE_EDGES", edges * static_cast<int>(occluders)},
             {"SILHOUETTE_BODY_EDGES", edges},
             {"FACE_WORDS", static_cast<int>(sizes.faces / 32)},
             {"OUTLINE_CORNERS", static_cast<int>(sizes.outlineCorners)},
             {"LIGHT_VERTICES", static_cast<int>(sizes.lightVertices)},
-            {"AREA_OCCLUDERS", static_cast<int>(kOccludersALight)},
-            {"AREA_SIGNED", static_cast<int>(kOccludersALight)}};
+            {"AREA_OCCLUDERS", static_cast<int>(occluders)},
+            {"AREA_SIGNED", static_cast<int>(occluders)}};
 }
 
 gpu::Image uploadedTable(gpu::Device& device, std::string_view label, uint32_t size, const std::vector<vec4>& texels)
@@ -94,12 +104,15 @@ const gpu::Pipeline& AreaLightSystem::pipelineFor(const Variant& variant)
     const auto found = std::ranges::find(pipelines_, variant, &Made::variant);
     if (found != pipelines_.end())
         return found->pipeline;
-    std::vector<gpu::ShaderDefine> defines = sizeDefines(variant.sizes);
+    const bool hasTriangles = variant.shadow == LightShadow::Triangles;
+    std::vector<gpu::ShaderDefine> defines = sizeDefines(variant.sizes, hasTriangles ? kTrianglesALight : kOccludersALight);
     defines.push_back({"SHADOW", shaderShadowOf(variant.shadow)});
     if (variant.sizes.isPlanar)
         defines.push_back({"PLANAR_LIGHTS"});
     if (variant.isGlossy)
         defines.push_back({"GLOSSY"});
+    if (hasTriangles)
+        defines.push_back({"TRIANGLES"});
     if (variant.shadow == LightShadow::Reference)
         defines.push_back({"REFERENCE"});
     if (variant.backend == RayBackend::ComputeBvh)
@@ -144,12 +157,15 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
         pass.read(frame.posed->scene, frame.posed->sceneUse);
     else if (frame.tiles)
         pass.read(frame.tiles, Use::StorageRead);
-    const gpu::Pipeline& pipeline = isTraced ? pipelineFor({range.shadow, frame.isGlossy, frame.scene->backend(), rounded({})})
-                                             : pipelineFor({range.shadow, frame.isGlossy, RayBackend::Auto, rounded(bodies_.sizes())});
+    const AreaSizes sizes = isTraced                                 ? AreaSizes{}
+                            : range.shadow == LightShadow::Triangles ? ofTriangles(bodies_.sizes())
+                                                                     : bodies_.sizes();
+    const RayBackend backend = isTraced ? frame.scene->backend() : RayBackend::Auto;
+    const gpu::Pipeline& pipeline = pipelineFor({range.shadow, frame.isGlossy, backend, rounded(sizes)});
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
     pass.record([this, &pipeline, area = frame.area, tiles = isTraced ? graph::BufferRef{} : frame.tiles, slot = frame.slot, g, range,
                  before, made, counters, traced, rays, frameIndex, scale, seen = frame.seenPastFields,
-                 mostPieces = frame.view->knobs.area.pieces](graph::Recorder& recorder) {
+                 knobs = frame.view->knobs.area](graph::Recorder& recorder) {
         const auto sampled = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNothingBefore; };
         recorder.dispatch(pipeline,
                           shader::AreaShade{.area = area,
@@ -170,7 +186,8 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const Frame& frame, const 
                                             .specularBefore = sampled(before.specular),
                                             .firstLight = range.first,
                                             .endLight = range.end,
-                                            .mostPieces = mostPieces,
+                                            .mostPieces = knobs.pieces,
+                                            .mostPlanes = static_cast<int>(knobs.planes),
                                             .rays = rays,
                                             .frameIndex = frameIndex,
                                             .pixelScale = static_cast<int>(scale)},
@@ -244,7 +261,8 @@ AreaLit AreaLightSystem::declareUpsample(graph::FrameGraph& graph, const Frame& 
 
 void AreaLightSystem::skipAll(graph::FrameGraph& graph)
 {
-    for (const std::string_view pass : {"area tiles", "area analytic", "area unshadowed", "area traced", "area reference", "area upsample"})
+    for (const std::string_view pass :
+         {"area tiles", "area analytic", "area triangles", "area unshadowed", "area traced", "area reference", "area upsample"})
         graph.skip(pass, "no AreaLight in the scene");
     FieldShadowSystem::skip(graph, "no AreaLight in the scene");
     prepareTables(false);
@@ -254,6 +272,7 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                                  const FieldFrame& fields, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
 {
     hasReference_ = false;
+    probe_.beginFrame();
     if (view.areaLights.empty()) {
         skipAll(graph);
         return {};
@@ -273,9 +292,11 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
     const auto scale = static_cast<uint32_t>(frame.scale);
     const LitPixels pixels{.extent = (graph.extent(g.depth) + scale - 1u) / scale, .scale = scale};
     frame.seenPastFields = fieldShadows_.declare(graph, view, slot, fields, g, frame.area, bodies_.lightCount(), pixels, counters);
+    if (view.probedPixel)
+        probe_.declare(graph, slot, g, frame.area, *view.probedPixel, view.knobs.area.planes);
     AreaLit lit;
     for (const AreaLightRange& range : bodies_.ranges()) {
-        if (range.shadow == LightShadow::Analytic)
+        if (!frame.tiles && (range.shadow == LightShadow::Analytic || range.shadow == LightShadow::Triangles))
             frame.tiles = declareTiles(graph, frame, tileCount);
         hasReference_ = hasReference_ || range.shadow == LightShadow::Reference;
         lit = range.shadow == LightShadow::Reference ? declareReference(graph, frame, range, counters)

@@ -5,6 +5,7 @@
 
 #include "render/gbuffer.h"
 #include "render/shadow/area_bodies.h"
+#include "render/shadow/area_probe.h"
 #include "render/shadow/sdf.h"
 
 #include <array>
@@ -23,12 +24,17 @@ struct AreaLit
 class AreaLightSystem
 {
 public:
-    AreaLightSystem(gpu::Device& device, const scene::Assets& assets) : device_(&device), bodies_(device, assets), fieldShadows_(device) {}
+    AreaLightSystem(gpu::Device& device, const scene::Assets& assets)
+        : device_(&device), bodies_(device, assets), probe_(device), fieldShadows_(device)
+    {
+    }
 
     AreaLit declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const FieldFrame& fields,
                     const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
     /// Points a light and pixel that the reference has accumulated for the view as it stands; none where no light is shadowed by it.
     [[nodiscard]] std::optional<uint32_t> referenceSamples() const;
+    /// Of FrameView::probedPixel.
+    [[nodiscard]] std::span<const shader::ProbeLine> probeLines() const { return probe_.lines(); }
 
 private:
     /// What a pipeline is made for.
@@ -74,6 +80,7 @@ private:
 
     gpu::Device* device_;
     AreaBodies bodies_;
+    AreaProbeSystem probe_;
     FieldShadowSystem fieldShadows_;
     std::deque<Made> pipelines_; // each made when first asked for; passes hold on to those made before
     gpu::Pipeline tiles_;
