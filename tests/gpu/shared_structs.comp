@@ -530,6 +530,7 @@ void echo(AreaShade b)
     put(b.tiles);
     put(b.counters);
     put(b.scene);
+    put(b.seenPastFields);
     put(b.frame);
     put(b.depth);
     put(b.normals);

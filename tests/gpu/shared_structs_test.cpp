@@ -224,8 +224,8 @@ TEST_F(SharedStructs, ProbeLine)
 TEST_F(SharedStructs, AreaShade)
 {
     expectSameLayout<shader::AreaShade>("AREA_SHADE", [](const auto& b) {
-        return wordsOf(b.area, b.tiles, b.counters, b.scene, b.frame, b.depth, b.normals, b.albedo, b.material, b.ltcMatrix, b.ltcAmplitude,
-                       b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.mostPlanes,
+        return wordsOf(b.area, b.tiles, b.counters, b.scene, b.seenPastFields, b.frame, b.depth, b.normals, b.albedo, b.material,
+                       b.ltcMatrix, b.ltcAmplitude, b.diffuse, b.specular, b.diffuseBefore, b.specularBefore, b.firstLight, b.endLight, b.mostPieces, b.mostPlanes,
                        b.rays, b.frameIndex, b.pixelScale);
     });
 }
