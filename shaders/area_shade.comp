@@ -1,5 +1,5 @@
-// Light of area lights that reaches what is seen, past what stands before them. Variants: SHADOW is kAreaUnshadowed, kAreaAnalytic (KT et al.
-// 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its points anew each frame; GLOSSY
+// Light of area lights that reaches what is seen, past what stands before them. Variants: SHADOW is kAreaUnshadowed (times shares that others
+// found), kAreaAnalytic (KT et al. 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its points anew each frame; GLOSSY
 // reflects by GGX too; COMPUTE_BVH traces without ray queries; TRIANGLES and sizes as in lib/area.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -27,8 +27,7 @@
 #endif
 #include "lib/area.glsl"
 #include "lib/blocked.glsl"
-#include "lib/surface.glsl"
-#include "lib/hemisphere.glsl"
+#include "lib/lit_surface.glsl"
 #include "lib/spread.glsl"
 #ifdef GLOSSY
 #include "lib/ltc.glsl"
@@ -41,28 +40,19 @@
 #include "lib/ray_query.glsl"
 #endif
 #include "lib/light_points.glsl"
+#include "lib/light_samples.glsl"
 #endif
 
 layout(buffer_reference, scalar) readonly buffer Areas { AreaBlock block; };
 layout(buffer_reference, scalar) readonly buffer Lights { AreaLightBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Tiles { AreaTileBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Owners { uint light[]; };
+layout(buffer_reference, scalar) readonly buffer Shares { vec2 value[]; };
 layout(buffer_reference, scalar) readonly buffer Seen { float share[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { AreaShade pc; };
 
 layout(local_size_x = kAreaGroupWidth, local_size_y = kAreaGroupHeight) in;
-
-struct Surface
-{
-    vec3 position; // moved off the surface past its errors
-    vec3 normal; // shading
-    vec3 toEye; // unit
-    mat3 tangentSpace; // from the world: across, on the side of the eye; beside; normal
-    vec3 f0; // colour of the mirror reflection, seen head on
-    float roughness;
-    float diffuse; // share of the light that is reflected diffusely, before albedo
-};
 
 struct Received
 {
@@ -76,63 +66,23 @@ uint matterCount = 0u;
 uint pieceCount = 0u, lightVertexCount = 0u, silhouetteVertexCount = 0u;
 bool isFallback = false;
 
-Surface surfaceAt(ivec2 pixel, float depth)
-{
-    vec4 octahedral = texelFetch(sampledImages[pc.normals], pixel, 0);
-    vec3 position = worldPosition(frameBlock, vec2(pixel) + 0.5, depth);
-    vec3 normal = unitFromOctahedral(octahedral.zw);
-    vec3 toEye = normalize(frameBlock.eye - position);
-    vec3 origin = rayOrigin(position, unitFromOctahedral(octahedral.xy), frameBlock.eye);
-    vec3 across = toEye - normal * dot(normal, toEye);
-    across = dot(across, across) > 1.0e-8 ? normalize(across) : tangentFrame(normal)[0];
-    mat3 tangentSpace = transpose(mat3(across, cross(normal, across), normal));
-#ifdef GLOSSY
-    vec4 material = texelFetch(sampledImages[pc.material], pixel, 0); // roughness, metallic, specular
-    vec3 albedo = texelFetch(sampledImages[pc.albedo], pixel, 0).rgb;
-    return Surface(origin, normal, toEye, tangentSpace, mix(vec3(0.04 * material.z), albedo, material.y), material.x, 1.0 - material.y);
-#else
-    return Surface(origin, normal, toEye, tangentSpace, vec3(0.0), 1.0, 1.0);
-#endif
-}
-
 #if SHADOW == 2
 
-float hashed(uvec3 v)
-{
-    // PCG in three dimensions (Jarzynski and Olano 2020).
-    v = v * 1664525u + 1013904223u;
-    v += v.yzx * v.zxy;
-    v ^= v >> 16u;
-    v += v.yzx * v.zxy;
-    return float((v.x ^ v.y ^ v.z) >> 8u) / 16777216.0;
-}
-
-Received received(BodyArrays arrays, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
+Received received(BodyArrays arrays, AreaLightBlock light, uint index, LitSurface s, ivec2 pixel)
 {
     BodyBlock body = Bodies(arrays.bodies).body[light.body];
     Received sum = Received(vec3(0.0), vec3(0.0));
     float area = litArea(arrays, body, s.position);
-    uvec3 seed = uvec3(uvec2(pixel), 2u * index);
-    vec2 shift = vec2(hashed(seed), hashed(seed + uvec3(0u, 0u, 1u)));
+    vec2 shift = pointShift(pixel, index);
     uint first = 0u;
 #ifdef REFERENCE
     first = pc.frameIndex * pc.rays;
 #endif
     for (uint i = 0u; i < pc.rays && area > 0.0; ++i) {
-        // The R2 sequence (Roberts 2018), another turn of it for every pixel.
-        vec2 u = fract(shift + vec2(uvec2(first + i) * uvec2(3242174889u, 2447445414u)) * 2.3283064365386963e-10);
-        LightPoint p = pointOnLight(arrays, body, s.position, area, u);
-        float distance2 = dot(p.position, p.position);
-        vec3 direction = p.position * inversesqrt(max(distance2, 1.0e-20));
-        float cosine = dot(direction, s.normal), cosineLight = -dot(direction, p.normal);
-        if (cosine <= 0.0 || cosineLight <= 0.0 ||
-            isBlocked(pc.scene, s.position, direction, sqrt(distance2) * 0.9999))
+        LightSample point = lightSample(arrays, body, s, area, pointOfSequence(shift, first + i));
+        if (point.diffuse == 0.0 || distanceToBlocker(pc.scene, s.position, point.direction, point.before, true) >= 0.0)
             continue;
-        float weight = cosine * cosineLight * area / max(distance2, 1.0e-20);
-        sum.diffuse += weight;
-#ifdef GLOSSY
-        sum.specular += weight * ggxReflection(s.normal, s.toEye, direction, max(s.roughness * s.roughness, 1.0e-3), s.f0);
-#endif
+        sum = Received(sum.diffuse + point.diffuse, sum.specular + point.specular);
     }
     vec3 scale = light.radiance / float(max(pc.rays, 1u));
     return Received(sum.diffuse * scale, sum.specular * scale);
@@ -149,7 +99,7 @@ bool isOutlineAbove(vec3 normal)
     return highest > 0.0;
 }
 
-void addOccluders(AreaBlock area, uint index, BodyBlock body, Surface s, ivec2 pixel)
+void addOccluders(AreaBlock area, uint index, BodyBlock body, LitSurface s, ivec2 pixel)
 {
     uvec2 tile = uvec2(pixel) / kAreaTileSize;
     uint at = (tile.y * area.tilesAcross + tile.x) * area.lightCount + index;
@@ -190,7 +140,7 @@ float sampledPast(BodyArrays arrays, vec3 point, bool isWanted)
 }
 
 // Of the light, or of its face `litFace`.
-Received receivedOf(AreaBlock area, AreaLightBlock light, uint index, BodyBlock body, Surface s, ivec2 pixel)
+Received receivedOf(AreaBlock area, AreaLightBlock light, uint index, BodyBlock body, LitSurface s, ivec2 pixel)
 {
     if (!beginLight(area.arrays, body, s.position) || !isOutlineAbove(s.normal))
         return Received(vec3(0.0), vec3(0.0));
@@ -220,7 +170,7 @@ Received receivedOf(AreaBlock area, AreaLightBlock light, uint index, BodyBlock 
     return sum;
 }
 
-Received received(AreaBlock area, AreaLightBlock light, uint index, Surface s, ivec2 pixel)
+Received received(AreaBlock area, AreaLightBlock light, uint index, LitSurface s, ivec2 pixel)
 {
     BodyBlock body = Bodies(area.arrays.bodies).body[light.body];
 #ifdef TRIANGLES
@@ -265,24 +215,27 @@ vec3 addedUp(uint before, ivec2 pixel, vec3 value)
 #endif
 }
 
-float seenPastFields(uint light, ivec2 litPixel, ivec2 extent)
+// Of the light that is reflected diffusely, and by GGX.
+vec2 shareSeen(uint light, uint litPixel, uint litPixels)
 {
-    if (pc.seenPastFields == 0ul)
-        return 1.0;
-    ivec2 lit = (extent + pc.pixelScale - 1) / pc.pixelScale;
-    return Seen(pc.seenPastFields).share[(int(light) * lit.y + litPixel.y) * lit.x + litPixel.x];
+    vec2 share = vec2(1.0);
+    if (pc.shares != 0ul)
+        share = Shares(pc.shares).value[(light - pc.firstLight) * litPixels + litPixel];
+    if (pc.seenPastFields != 0ul)
+        share *= Seen(pc.seenPastFields).share[light * litPixels + litPixel];
+    return share;
 }
 
 void main()
 {
     ivec2 litPixel = ivec2(spreadInvocation(kAreaGroupHeight)), extent = textureSize(sampledImages[pc.depth], 0);
-    ivec2 pixel = min(litPixel * pc.pixelScale + pc.pixelScale / 2, extent - 1);
-    bool isInside = all(lessThan(litPixel * pc.pixelScale, extent));
+    ivec2 lit = litExtent(extent, pc.pixelScale), pixel = litAt(litPixel, pc.pixelScale, extent);
+    bool isInside = all(lessThan(litPixel, lit));
     float depth = isInside ? texelFetch(sampledImages[pc.depth], pixel, 0).x : 0.0;
     Received sum = Received(vec3(0.0), vec3(0.0));
     if (depth > 0.0) {
         AreaBlock area = Areas(pc.area).block;
-        Surface s = surfaceAt(pixel, depth);
+        LitSurface s = litSurface(frameBlock, SurfaceImages(pc.normals, pc.albedo, pc.material), pixel, depth);
         mostPlanes = pc.mostPlanes;
         for (uint i = pc.firstLight; i < pc.endLight; ++i) {
             AreaLightBlock light = Lights(area.lights).block[i];
@@ -291,8 +244,8 @@ void main()
 #else
             Received one = received(area, light, i, s, pixel);
 #endif
-            float seen = seenPastFields(i, litPixel, extent);
-            sum = Received(sum.diffuse + seen * one.diffuse, sum.specular + seen * one.specular);
+            vec2 seen = shareSeen(i, uint(litPixel.y * lit.x + litPixel.x), uint(lit.x * lit.y));
+            sum = Received(sum.diffuse + seen.x * one.diffuse, sum.specular + seen.y * one.specular);
         }
         sum.diffuse *= s.diffuse;
     }

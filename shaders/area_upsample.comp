@@ -5,6 +5,7 @@
 #include "lib/bindless.glsl"
 #include "lib/frame.glsl"
 #include "shared/area.h"
+#include "lib/lit_extent.glsl"
 #include "lib/spread.glsl"
 #include "lib/surface.glsl"
 
@@ -22,9 +23,9 @@ struct LitPixel
 
 ivec2 fullExtent;
 
-LitPixel litAt(ivec2 place)
+LitPixel litPixel(ivec2 place)
 {
-    ivec2 pixel = min(place * pc.pixelScale + pc.pixelScale / 2, fullExtent - 1); // where it was lit
+    ivec2 pixel = litAt(place, pc.pixelScale, fullExtent);
     float depth = texelFetch(sampledImages[pc.depth], pixel, 0).x;
     LitPixel lit;
     lit.diffuse = texelFetch(sampledImages[pc.diffuseLit], place, 0).rgb;
@@ -81,7 +82,7 @@ void main()
     ivec2 lastPlace = textureSize(sampledImages[pc.diffuseLit], 0) - 1;
     for (int k = 0; k < 4; ++k) {
         places[k] = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), lastPlace) - corner;
-        around[k] = litAt(corner + places[k]);
+        around[k] = litPixel(corner + places[k]);
     }
     for (int y = 0; y < pc.pixelScale; ++y)
         for (int x = 0; x < pc.pixelScale; ++x) {

@@ -75,24 +75,10 @@ uint32_t addParts(Assets& assets, std::vector<BodyPart> parts)
     return first;
 }
 
-/// Names the methods that are not there yet.
-void useWhatThereIs(AreaLight& light, const std::string& subject)
-{
-    using enum scene::LightShadow;
-    const auto isThere = [](scene::LightShadow shadow) {
-        return shadow == None || shadow == Analytic || shadow == Triangles || shadow == Traced || shadow == Reference;
-    };
-    if (!light.shadow || isThere(*light.shadow))
-        return;
-    logWarning("{}: an AreaLight asks for a shadow that is not there yet and gets the analytic one", subject);
-    light.shadow = Analytic;
-}
-
 void makeLights(ecs::World& world, Assets& assets, const std::string& subject)
 {
     std::vector<std::pair<ecs::Entity, scene::LightBodies>> made;
-    for (auto [entity, light] : ecs::Each<ecs::Entity, AreaLight>(world)) {
-        useWhatThereIs(light, subject);
+    for (auto [entity, light] : ecs::Each<ecs::Entity, const AreaLight>(world)) {
         const std::vector<ConvexBody> bodies = bodiesOf(light, ownMesh(world, assets, entity), subject);
         std::vector<BodyPart> parts;
         for (const ConvexBody& body : bodies)

@@ -104,8 +104,10 @@ struct FrameView
     /// Whether a light is shadowed by rays.
     [[nodiscard]] bool tracesAreaLights() const
     {
+        using enum scene::LightShadow;
         return std::ranges::any_of(areaLights, [this](const AreaLightDraw& light) {
-            return shadowOf(light) == scene::LightShadow::Traced || shadowOf(light) == scene::LightShadow::Reference;
+            const scene::LightShadow shadow = shadowOf(light);
+            return shadow != None && shadow != Analytic && shadow != Triangles;
         });
     }
     /// Whether a light is shadowed by what accumulates to the truth.

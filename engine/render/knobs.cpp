@@ -38,7 +38,8 @@ constexpr KnobChoice kExtra[] = {{"off", 0}, {"on", 1}};
 constexpr KnobChoice kLightShadows[] = {
     choice("none", scene::LightShadow::None),           choice("analytic", scene::LightShadow::Analytic),
     choice("triangles", scene::LightShadow::Triangles), choice("traced", scene::LightShadow::Traced),
-    choice("reference", scene::LightShadow::Reference),
+    choice("ratio", scene::LightShadow::Ratio),         choice("article", scene::LightShadow::Article),
+    choice("two-sided", scene::LightShadow::TwoSided),  choice("reference", scene::LightShadow::Reference),
 };
 constexpr KnobChoice kFieldShadows[] = {
     choice("none", FieldShadow::None),           choice("quilez", FieldShadow::Quilez),      choice("aaltonen", FieldShadow::Aaltonen),

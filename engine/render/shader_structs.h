@@ -27,6 +27,8 @@ using uint = uint32_t;
 
 #include "shaders/shared/area.h"
 
+#include "shaders/shared/light_share.h"
+
 #include "shaders/shared/probe.h"
 
 #include "shaders/shared/field.h"

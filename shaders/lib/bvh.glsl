@@ -118,10 +118,11 @@ BvhHit hitInScene(BvhScene scene, uint mask, bool anyWillDo, vec3 origin, vec3 d
     return hit;
 }
 
-// Anything is hit before `far`.
-bool isBlocked(uint64_t scene, vec3 origin, vec3 direction, float far)
+// How far off something is that is hit before `far`: the nearest, or any where any will do. Negative where there is nothing.
+float distanceToBlocker(uint64_t scene, vec3 origin, vec3 direction, float far, bool anyWillDo)
 {
-    return hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, true, origin, direction, far).mask != 0u;
+    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, anyWillDo, origin, direction, far);
+    return hit.mask != 0u ? hit.at : -1.0;
 }
 
 // How far off the dynamic surface is that the ray hits before any static one; negative where there is none. The search stands in the

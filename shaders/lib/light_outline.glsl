@@ -17,13 +17,6 @@ bool isLightLost; // it has more corners than fit: some are left out, or all
 uint litFace = 0u; // of the light
 #endif
 
-// A side of the light counts as seen only from a ten-millionth of the distance on.
-bool seesFace(BodyArrays arrays, BodyBlock light, FaceBlock face, vec3 point, float side)
-{
-    vec3 from = point - bodyVertex(arrays, light, faceCorner(arrays, face, 0u));
-    return side * dot(face.normal, from) > 1.0e-7 * length(from);
-}
-
 void addOutlineCorner(vec3 corner)
 {
     if (outlineCount < OUTLINE_CORNERS)

@@ -1,6 +1,8 @@
-// Points on the faces of a light's body that a point sees, evenly by area. Needs lib/area.glsl.
+// Points on the faces of a light's body that a point sees, evenly by area.
 #ifndef LIB_LIGHT_POINTS_GLSL
 #define LIB_LIGHT_POINTS_GLSL
+
+#include "lib/bodies.glsl"
 
 struct LightPoint
 {
@@ -34,6 +36,19 @@ float litArea(BodyArrays arrays, BodyBlock light, vec3 point)
                 area2 += triangleArea2(arrays, light, face, k);
     }
     return 0.5 * area2;
+}
+
+// Metres: of the disk that shows as much area as the light does from there. `direction` is the way to its middle, unit.
+float apparentRadius(BodyArrays arrays, BodyBlock light, vec3 point, vec3 direction)
+{
+    float area2 = 0.0;
+    for (uint i = 0u; i < light.faceCount; ++i) {
+        FaceBlock face = bodyFace(arrays, light, i);
+        if (isFaceLit(arrays, light, face, point))
+            for (uint k = 0u; k + 2u < face.cornerCount; ++k)
+                area2 += triangleArea2(arrays, light, face, k) * abs(dot(face.normal, direction));
+    }
+    return sqrt(area2 / 6.2831853);
 }
 
 // `u` in [0, 1): a share of litArea, which is `area`, and two coordinates there.

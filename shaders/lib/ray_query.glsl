@@ -19,10 +19,11 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
     return rayQueryGetIntersectionTEXT(query, true);
 }
 
-// Anything is hit before `far`.
-bool isBlocked(uint64_t scene, vec3 origin, vec3 direction, float far)
+// How far off something is that is hit before `far`: the nearest, or any where any will do. Negative where there is nothing.
+float distanceToBlocker(uint64_t scene, vec3 origin, vec3 direction, float far, bool anyWillDo)
 {
-    return closestHit(scene, kMaskStatic | kMaskDynamic, gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, far) >= 0.0;
+    uint flags = anyWillDo ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
+    return closestHit(scene, kMaskStatic | kMaskDynamic, flags, origin, direction, far);
 }
 
 // How far off a dynamic surface is that the ray hits, if the first it hits is one; negative if not. Any dynamic hit will do where nothing

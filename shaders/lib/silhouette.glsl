@@ -3,13 +3,7 @@
 #ifndef LIB_SILHOUETTE_GLSL
 #define LIB_SILHOUETTE_GLSL
 
-#include "shared/area.h"
-
-layout(buffer_reference, scalar) readonly buffer Bodies { BodyBlock body[]; };
-layout(buffer_reference, scalar) readonly buffer BodyVertices { vec3 position[]; };
-layout(buffer_reference, scalar) readonly buffer BodyFaces { FaceBlock face[]; };
-layout(buffer_reference, scalar) readonly buffer BodyCorners { uint vertex[]; };
-layout(buffer_reference, scalar) readonly buffer BodyEdges { EdgeBlock edge[]; };
+#include "lib/bodies.glsl"
 
 // What can be seen of the body must lie in front of this plane: dot(normal, v - point) + offset > 0.
 struct CutPlane
@@ -37,18 +31,6 @@ float greatestHeight; // of the point over the planes of their faces, metres
 
 bool isFront(uint face) { return (frontFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
 bool isLevel(uint face) { return (levelFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
-
-vec3 bodyVertex(BodyArrays arrays, BodyBlock body, uint index) { return BodyVertices(arrays.vertices).position[body.firstVertex + index]; }
-
-FaceBlock bodyFace(BodyArrays arrays, BodyBlock body, uint index) { return BodyFaces(arrays.faces).face[body.firstFace + index]; }
-
-uint faceCorner(BodyArrays arrays, FaceBlock face, uint index) { return BodyCorners(arrays.corners).vertex[face.firstCorner + index]; }
-
-// How far the point is in front of the face's plane, metres.
-float heightOver(BodyArrays arrays, BodyBlock body, FaceBlock face, vec3 point)
-{
-    return dot(face.normal, point - bodyVertex(arrays, body, faceCorner(arrays, face, 0u)));
-}
 
 // Finds frontFaces, levelFaces, hasFaces and greatestHeight; whether there is any front one. `tolerance` in metres: so near its plane a
 // point is level with a face. A face without area has no sides: one that counted as front would make any body open.

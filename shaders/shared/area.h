@@ -104,6 +104,7 @@ struct AreaShade
     uint64_t tiles; // AreaTileBlock[lightCount], tile by tile
     uint64_t counters; // CounterBlock
     uint64_t scene; // what rays are traced through
+    uint64_t shares; // vec2[endLight - firstLight][pixels]: shares of lights that are seen; null: as the shader finds itself
     uint64_t seenPastFields; // float[lightCount][pixels]: shares of lights that distance fields leave; null: all
     uint frame; // slot of a FrameBlock
     uint depth;

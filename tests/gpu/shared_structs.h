@@ -31,6 +31,8 @@ Words wordsOf(const Members&... members)
 class SharedStructs : public DeviceTest
 {
 protected:
+    explicit SharedStructs(std::string_view kernel = "shared_structs.comp") : kernel_(kernel) {}
+
     // `members` lists a struct's words by name; the kernel's define lists them by name in GLSL.
     template <class Block, class Members>
     void expectSameLayout(std::string_view define, Members members)
@@ -44,9 +46,12 @@ protected:
         std::memcpy(blocks.data(), distinct.data(), sizeof(blocks));
 
         const Words expected = members(blocks[1]);
-        const auto echoed = runKernel<std::array<uint32_t, kWords>>(device(), "shared_structs.comp", define, std::vector{blocks});
+        const auto echoed = runKernel<std::array<uint32_t, kWords>>(device(), kernel_, define, std::vector{blocks});
         EXPECT_EQ(Words(echoed[0].begin(), echoed[0].begin() + static_cast<ptrdiff_t>(expected.size())), expected);
     }
+
+private:
+    std::string_view kernel_;
 };
 
 } // namespace antumbra

@@ -151,16 +151,6 @@ TEST(ShadowBodies, ACharacterBlocksByHullsThatFollowItsJoints)
     EXPECT_GT(moved, after.occluders.size() / 2);
 }
 
-TEST(ShadowBodies, AShadowThatIsNotThereYetBecomesTheAnalyticOne)
-{
-    const render::FrameView view =
-        Made({lamp({.shadow = scene::LightShadow::Ratio}), lamp({.shadow = scene::LightShadow::Traced}), lamp({})}).extracted();
-    ASSERT_EQ(view.areaLights.size(), 3u);
-    EXPECT_EQ(view.areaLights[0].shadow, scene::LightShadow::Analytic);
-    EXPECT_EQ(view.areaLights[1].shadow, scene::LightShadow::Traced);
-    EXPECT_FALSE(view.areaLights[2].shadow.has_value());
-}
-
 TEST(ShadowBodies, WhatCannotShineIsRefusedByNameOfTheScene)
 {
     for (const SceneEntity& entity : {lamp({.shape = scene::LightShape::Mesh}), lamp({.shape = scene::LightShape::Mesh}, MeshKind::Sphere)})

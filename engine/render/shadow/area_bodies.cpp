@@ -23,7 +23,7 @@ void AreaBodies::addLights(const FrameView& view)
 {
     // The reference first: what others add is not to be part of its mean.
     constexpr std::array kOrder{LightShadow::Reference, LightShadow::Analytic, LightShadow::Triangles, LightShadow::None,
-                                LightShadow::Traced};
+                                LightShadow::Traced,    LightShadow::Ratio,    LightShadow::Article,   LightShadow::TwoSided};
     for (const LightShadow shadow : kOrder) {
         const uint32_t first = lightCount();
         for (uint32_t index = 0; index < view.areaLights.size(); ++index) {

@@ -3,7 +3,7 @@
 
 #include "gpu/device.h"
 #include "render/body_blocks.h"
-#include "render/frame_view.h"
+#include "render/shadow/lit_frame.h"
 #include "scene/assets.h"
 
 namespace antumbra::render {
@@ -19,14 +19,6 @@ struct AreaSizes
     uint32_t faces = 1;           // of a body
 
     friend bool operator==(const AreaSizes&, const AreaSizes&) = default;
-};
-
-/// Lights that are shadowed alike stand together.
-struct AreaLightRange
-{
-    scene::LightShadow shadow = scene::LightShadow::Analytic;
-    uint32_t first = 0; // parts of lights, as AreaBlock::lights counts them
-    uint32_t end = 0;
 };
 
 class AreaBodies

@@ -1,15 +1,16 @@
 // Light of area lights on what is seen, less what stands before them: in closed form (KT, Sakurikar, Narayanan 2021, as corrected in
-// methods/area-shadows.md), by shadow rays, or accumulated to the truth. The approximations are the tables of linearly transformed cosines
-// (bake/ltc.h), which the traced methods do without, and bodies in place of meshes (app/shadow_bodies.h), which they do not need.
+// methods/area-shadows.md), by shadow rays, accumulated to the truth, or by shares that others find. The approximations are the tables of
+// linearly transformed cosines (bake/ltc.h), which the traced methods do without, and bodies in place of meshes (app/shadow_bodies.h),
+// which they do not need.
 #pragma once
 
-#include "render/gbuffer.h"
-#include "render/shadow/area_bodies.h"
+#include "render/shadow/area_pipelines.h"
 #include "render/shadow/area_probe.h"
+#include "render/shadow/penumbra.h"
+#include "render/shadow/ratio_shadow.h"
 #include "render/shadow/sdf.h"
 
 #include <array>
-#include <deque>
 #include <optional>
 
 namespace antumbra::render {
@@ -25,7 +26,8 @@ class AreaLightSystem
 {
 public:
     AreaLightSystem(gpu::Device& device, const scene::Assets& assets)
-        : device_(&device), bodies_(device, assets), probe_(device), fieldShadows_(device)
+        : device_(&device), bodies_(device, assets), pipelines_(device), probe_(device), fieldShadows_(device), ratioShadows_(device),
+          penumbras_(device)
     {
     }
 
@@ -37,52 +39,35 @@ public:
     [[nodiscard]] std::span<const shader::ProbeLine> probeLines() const { return probe_.lines(); }
 
 private:
-    /// What a pipeline is made for.
-    struct Variant
+    /// What one pass of lights is made of.
+    struct Shading
     {
-        scene::LightShadow shadow;
-        bool isGlossy;
-        RayBackend backend;
-        AreaSizes sizes; // the least for what traces rays, which does not depend on them
-
-        friend bool operator==(const Variant&, const Variant&) = default;
-    };
-    struct Made
-    {
-        Variant variant;
-        gpu::Pipeline pipeline;
-    };
-    /// The frame's, as its passes share it.
-    struct Frame
-    {
-        const FrameView* view;
-        const GpuScene* scene;
-        const GBuffer* g;
-        const Posed* posed;
-        VkDeviceAddress area;
-        graph::BufferRef tiles;
-        graph::BufferRef seenPastFields;
-        uint32_t slot; // of the FrameBlock
-        Scale scale;
-        bool isGlossy;
+        AreaLit before;          // what it adds to, or the mean so far
+        AreaLit made;            // written
+        graph::BufferRef shares; // of the range's lights, where these are found apart
+        uint32_t rays = 0;       // a light; the reference: 0 keeps the means
+        uint32_t frameIndex = 0; // of the reference's accumulation
     };
 
     void skipAll(graph::FrameGraph& graph);
-    const gpu::Pipeline& pipelineFor(const Variant& variant);
     void prepareTables(bool isGlossy);
-    graph::BufferRef declareTiles(graph::FrameGraph& graph, const Frame& frame, uvec2 tileCount);
-    AreaLit declareReference(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range, graph::BufferRef& counters);
-    AreaLit declareLights(graph::FrameGraph& graph, const Frame& frame, const AreaLightRange& range, const AreaLit& before,
+    void declareTiles(graph::FrameGraph& graph, const LitFrame& frame, uvec2 tileCount);
+    AreaLit declareReference(graph::FrameGraph& graph, const LitFrame& frame, const AreaLightRange& range, graph::BufferRef& counters);
+    AreaLit declareLights(graph::FrameGraph& graph, const LitFrame& frame, const AreaLightRange& range, const AreaLit& before,
                           graph::BufferRef& counters);
-    void declareShade(graph::Pass& pass, const Frame& frame, const AreaLightRange& range, const AreaLit& before, const AreaLit& made,
-                      graph::BufferRef counters, uint32_t rays, uint32_t frameIndex, uint32_t scale);
-    AreaLit declareUpsample(graph::FrameGraph& graph, const Frame& frame, const AreaLit& lit);
+    graph::BufferRef declareShares(graph::FrameGraph& graph, const LitFrame& frame, const AreaLightRange& range);
+    void declareShade(graph::Pass& pass, const LitFrame& frame, const AreaLightRange& range, const Shading& shading,
+                      graph::BufferRef counters);
+    AreaLit declareUpsample(graph::FrameGraph& graph, const LitFrame& frame, const AreaLit& lit);
 
     gpu::Device* device_;
     AreaBodies bodies_;
+    AreaPipelines pipelines_;
     AreaProbeSystem probe_;
     FieldShadowSystem fieldShadows_;
-    std::deque<Made> pipelines_; // each made when first asked for; passes hold on to those made before
+    RatioShadowSystem ratioShadows_;
+    PenumbraSystem penumbras_;
+    graph::BufferRef occluderTiles_, seenPastFields_; // of the frame that is declared
     gpu::Pipeline tiles_;
     std::array<gpu::Pipeline, 2> upsample_; // by whether glossy
     gpu::Image ltcMatrix_, ltcAmplitude_;   // only while something glossy is lit

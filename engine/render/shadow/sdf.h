@@ -3,18 +3,11 @@
 #pragma once
 
 #include "render/fields.h"
-#include "render/gbuffer.h"
+#include "render/shadow/lit_frame.h"
 
 #include <array>
 
 namespace antumbra::render {
-
-/// How many pixels are lit, and which.
-struct LitPixels
-{
-    uvec2 extent{0};
-    uint32_t scale = 1; // pixels of the G-buffer along one of theirs
-};
 
 class FieldShadowSystem
 {

@@ -1,0 +1,44 @@
+// The pipelines that shade by area lights, each made when first asked for, for what a frame has: nobody pays for the general case.
+#pragma once
+
+#include "render/shadow/area_bodies.h"
+
+#include <deque>
+
+namespace antumbra::render {
+
+/// Rays and the truth by rays, which know nothing of bodies before a light.
+[[nodiscard]] bool traces(scene::LightShadow shadow);
+/// Found as a share of the light, apart from it.
+[[nodiscard]] bool isShare(scene::LightShadow shadow);
+
+class AreaPipelines
+{
+public:
+    explicit AreaPipelines(gpu::Device& device) : device_(&device) {}
+
+    struct Variant
+    {
+        scene::LightShadow shadow;
+        bool isGlossy;
+        RayBackend backend; // Auto for what traces none
+        AreaSizes sizes;    // of the frame; what traces rays does not depend on them
+    };
+    /// Stays where it is as others are made: passes hold on to it.
+    const gpu::Pipeline& shade(const Variant& variant);
+
+private:
+    struct Made
+    {
+        int shadow; // as the shader counts them
+        bool isReference, hasTriangles, isGlossy;
+        RayBackend backend;
+        AreaSizes sizes;
+        gpu::Pipeline pipeline;
+    };
+
+    gpu::Device* device_;
+    std::deque<Made> made_;
+};
+
+} // namespace antumbra::render
