@@ -7,13 +7,11 @@
 #include "scene/animation.h"
 #include "scene/components.h"
 #include "scene/light_body.h"
-#include "scene/triangle_joints.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 namespace antumbra::app {
 
@@ -107,14 +105,14 @@ float marginOf(const ConvexBody& body, const scene::Mesh& mesh, std::span<const 
     return static_cast<float>(margin);
 }
 
-/// A hull a joint, in bind space.
-std::vector<BodyPart> hullParts(const scene::Model& model, uint32_t greatestVertices)
+/// Hulls of joints or of pieces, in bind space.
+std::vector<BodyPart> hullParts(const scene::Model& model, const scene::Occluder& occluder)
 {
-    const std::map<uint32_t, std::vector<uint32_t>> vertices = scene::verticesByJoint(model.mesh);
     std::vector<BodyPart> parts;
-    for (bake::Hull& hull : bake::hullsOfModel(model, greatestVertices)) {
+    const bake::HullsBy by = occluder.isByPiece ? bake::HullsBy::Piece : bake::HullsBy::Joint;
+    for (bake::Hull& hull : bake::hullsOfModel(model, occluder.greatestVertices, by)) {
         const bool isHollow = !hull.body.isPlanar; // a flat one has no inside
-        const float margin = marginOf(hull.body, model.mesh, vertices.at(hull.joint));
+        const float margin = marginOf(hull.body, model.mesh, hull.vertices);
         parts.push_back({.body = std::move(hull.body), .joint = hull.joint, .isHollow = isHollow, .margin = margin});
     }
     // The largest first: what it hides of a light need not be asked about the others.
@@ -145,7 +143,7 @@ std::vector<BodyPart> partsAtRest(const scene::Model& model, const scene::Occlud
         return parts;
     }
     const std::vector<mat4> joints = restJoints(model);
-    for (BodyPart& part : hullParts(model, occluder.greatestVertices)) {
+    for (BodyPart& part : hullParts(model, occluder)) {
         part.body = transformed(part.body, joints[part.joint]);
         part.joint = scene::kNoIndex;
         parts.push_back(std::move(part));
@@ -159,7 +157,7 @@ std::vector<BodyPart> partsOf(const scene::Model& model, const scene::Occluder& 
         return partsAtRest(model, occluder);
     if (occluder.shape == scene::OccluderShape::Triangles)
         logWarning("{}: an Occluder that moves blocks by a hull a bone, not by its triangles", subject);
-    return hullParts(model, occluder.greatestVertices);
+    return hullParts(model, occluder);
 }
 
 void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject)

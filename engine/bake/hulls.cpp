@@ -6,11 +6,13 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "scene/merged_body.h"
+#include "scene/mesh_pieces.h"
 #include "scene/outline.h"
 #include "scene/triangle_joints.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace antumbra::bake {
 
@@ -64,6 +66,14 @@ std::optional<ConvexBody> fullHull(std::span<const vec3> points)
     return solidHull(points);
 }
 
+std::map<uint32_t, std::vector<uint32_t>> byPiece(const std::vector<uint32_t>& vertices, const std::vector<uint32_t>& pieces)
+{
+    std::map<uint32_t, std::vector<uint32_t>> split;
+    for (const uint32_t vertex : vertices)
+        split[pieces[vertex]].push_back(vertex);
+    return split;
+}
+
 } // namespace
 
 std::optional<ConvexBody> convexHull(std::span<const vec3> points, uint32_t greatestVertices)
@@ -78,16 +88,19 @@ std::optional<ConvexBody> convexHull(std::span<const vec3> points, uint32_t grea
     return simplifiedHull(*body, greatestVertices);
 }
 
-std::vector<Hull> hullsOfModel(const scene::Model& model, uint32_t greatestVertices)
+std::vector<Hull> hullsOfModel(const scene::Model& model, uint32_t greatestVertices, HullsBy by)
 try {
+    const std::vector<uint32_t> pieces =
+        by == HullsBy::Piece ? scene::piecesOf(model.mesh) : std::vector<uint32_t>(model.mesh.positions.size());
     std::vector<Hull> hulls;
-    for (const auto& [joint, vertices] : scene::verticesByJoint(model.mesh)) {
-        std::vector<vec3> points;
-        for (const uint32_t vertex : vertices)
-            points.push_back(model.mesh.positions[vertex]);
-        if (std::optional<ConvexBody> body = convexHull(points, greatestVertices))
-            hulls.push_back({*std::move(body), joint});
-    }
+    for (const auto& [joint, all] : scene::verticesByJoint(model.mesh))
+        for (auto& [piece, vertices] : byPiece(all, pieces)) {
+            std::vector<vec3> points;
+            for (const uint32_t vertex : vertices)
+                points.push_back(model.mesh.positions[vertex]);
+            if (std::optional<ConvexBody> body = convexHull(points, greatestVertices))
+                hulls.push_back({*std::move(body), joint, std::move(vertices)});
+        }
     return hulls;
 } catch (const Error& error) {
     throw Error(error.what(), model.name);

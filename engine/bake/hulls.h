@@ -12,15 +12,19 @@ namespace antumbra::bake {
 /// Throws Error for coordinates that are not finite or beyond 1e30 m.
 std::optional<scene::ConvexBody> convexHull(std::span<const vec3> points, uint32_t greatestVertices);
 
-/// Vertices are in bind space: joint `joint` moves them.
+/// In bind space: joint `joint` moves it.
 struct Hull
 {
     scene::ConvexBody body;
-    uint32_t joint = 0; // into Model::joints
+    uint32_t joint = 0;             // into Model::joints
+    std::vector<uint32_t> vertices; // of the model's mesh, that it is the hull of
 };
 
-/// One for each joint that triangles belong to (scene/triangle_joints.h), in the order of the joints, unless they have no area.
-/// Morph targets are not looked at. Errors as above, named after the model.
-std::vector<Hull> hullsOfModel(const scene::Model& model, uint32_t greatestVertices);
+enum class HullsBy { Joint, Piece };
+
+/// One for each joint that triangles belong to (scene/triangle_joints.h), or for each piece of these that hangs together
+/// (scene/mesh_pieces.h), in the order of the joints, unless they have no area. Morph targets are not looked at. Errors as above, named
+/// after the model.
+std::vector<Hull> hullsOfModel(const scene::Model& model, uint32_t greatestVertices, HullsBy by = HullsBy::Joint);
 
 } // namespace antumbra::bake

@@ -164,8 +164,8 @@ constexpr KnobDescription kTable[] = {
     atLoading(
         knob<kGallery, &Gallery::light>("gallery.light", kGalleryLights, "what shines in the gallery; spheres are of so many vertices")),
     atLoading(knob<kGallery, &Gallery::occluder>("gallery.occluder", kGalleryOccluders, "what stands in the light of the gallery")),
-    atLoading(knob<kGallery, &Gallery::lights>("gallery.lights", {1, 3, 1}, "lights in the gallery")),
-    atLoading(knob<kGallery, &Gallery::occluders>("gallery.occluders", {0, 3, 1}, "occluders in the gallery")),
+    atLoading(knob<kGallery, &Gallery::lights>("gallery.lights", {1, 6, 1}, "lights in the gallery")),
+    atLoading(knob<kGallery, &Gallery::occluders>("gallery.occluders", {0, 8, 1}, "occluders in the gallery")),
     knob<&Knobs::view>("view", kViews, "what the screen shows"),
 };
 

@@ -24,6 +24,7 @@ constexpr Words<LightShadow, 8> kLightShadows{{{"none", LightShadow::None},
                                                {"article", LightShadow::Article},
                                                {"two-sided", LightShadow::TwoSided},
                                                {"reference", LightShadow::Reference}}};
+constexpr Words<bool, 2> kHullsBy{{{"joint", false}, {"piece", true}}};
 constexpr Words<OccluderShape, 2> kOccluderShapes{{{"hulls", OccluderShape::Hulls}, {"triangles", OccluderShape::Triangles}}};
 constexpr Words<SDFShape, 8> kSDFShapes{{{"sphere", SDFShape::Sphere},
                                          {"box", SDFShape::Box},
@@ -242,11 +243,12 @@ Occluder readOccluder(const JsonObject& part)
     Occluder occluder;
     occluder.shape = part.choice<OccluderShape>("shape", occluder.shape, kOccluderShapes);
     if (occluder.shape == OccluderShape::Hulls)
-        part.allowOnly({"shape", "max_vertices"});
+        part.allowOnly({"shape", "max_vertices", "hulls_by"});
     else
         part.allowOnly({"shape"});
     occluder.greatestVertices =
         static_cast<uint32_t>(part.integer("max_vertices", static_cast<int32_t>(occluder.greatestVertices), {4, 4096}));
+    occluder.isByPiece = part.choice<bool>("hulls_by", occluder.isByPiece, kHullsBy);
     return occluder;
 }
 

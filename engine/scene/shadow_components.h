@@ -37,6 +37,7 @@ struct Occluder
 {
     OccluderShape shape = OccluderShape::Hulls;
     uint32_t greatestVertices = 32; // of one hull
+    bool isByPiece = false;         // a hull each piece of a joint's mesh that hangs together, in place of one a joint
 };
 
 /// The bodies of an AreaLight: a range of Assets::bodyParts, and what they are drawn with, in Assets::models.

@@ -238,6 +238,28 @@ TEST(HullsOfModel, ATriangleBelongsToTheJointWithTheGreatestShare)
     EXPECT_GT(corners, model.mesh.positions.size()); // those on both sides of the border count twice
 }
 
+TEST(HullsOfModel, AreOfPiecesThatHangTogetherWhereTheyAreAskedFor)
+{
+    Mesh cubes = makeCube(); // whose faces share places and no vertices
+    const Mesh second = makeCube();
+    const auto first = static_cast<uint32_t>(cubes.positions.size());
+    for (const vec3& position : second.positions)
+        cubes.positions.push_back(position + vec3(3, 0, 0));
+    for (const uint32_t index : second.indices)
+        cubes.indices.push_back(first + index);
+    cubes.normals.insert(cubes.normals.end(), second.normals.begin(), second.normals.end());
+    cubes.uvs.insert(cubes.uvs.end(), second.uvs.begin(), second.uvs.end());
+    cubes.triangleMaterials.insert(cubes.triangleMaterials.end(), second.triangleMaterials.begin(), second.triangleMaterials.end());
+    const Model model = rigidModel("two cubes", std::move(cubes), {});
+    EXPECT_EQ(hullsOfModel(model, 32).size(), 1u);
+    const std::vector<Hull> hulls = hullsOfModel(model, 32, HullsBy::Piece);
+    ASSERT_EQ(hulls.size(), 2u);
+    for (const Hull& hull : hulls) {
+        EXPECT_EQ(hull.body.vertices.size(), 8u);
+        EXPECT_EQ(hull.vertices.size(), first);
+    }
+}
+
 TEST(HullsOfModel, LeavesOutWhatHasNoAreaAndNamesTheModelInErrors)
 {
     Mesh line = makePlane();

@@ -131,7 +131,7 @@ TEST(SceneFile, ReadsEveryAreaLight)
 TEST(SceneFile, ReadsOccludersAndDistanceFields)
 {
     const SceneFile scene = load(R"({"entities": [
-        {"mesh": "cube", "Occluder": {"shape": "hulls", "max_vertices": 12}},
+        {"mesh": "cube", "Occluder": {"shape": "hulls", "max_vertices": 12, "hulls_by": "piece"}},
         {"mesh": "cube", "Occluder": {"shape": "triangles"}},
         {"SDFPrimitive": {"shape": "torus", "center": [1, 2, 3], "axis": [0, 0, 2], "major": 2, "minor": 0.5, "field": "rings"}},
         {"SDFPrimitive": {"shape": "capsule", "a": [0, 0, 0], "b": [0, 1, 0], "radius": 0.2, "operation": "smooth_union", "k": 0.3,
@@ -142,6 +142,7 @@ TEST(SceneFile, ReadsOccludersAndDistanceFields)
         {"SDFPrimitive": {"shape": "cone", "radius": 0.4, "height": 3}},
         {"SDFPrimitive": {"shape": "cone", "radius": 0.4, "top_radius": 0.3, "height": 3}}]})");
     EXPECT_EQ(scene.entities[0].occluder->greatestVertices, 12u);
+    EXPECT_TRUE(scene.entities[0].occluder->isByPiece);
     EXPECT_EQ(scene.entities[1].occluder->shape, OccluderShape::Triangles);
     const SDFPrimitive& torus = *scene.entities[2].sdfPrimitive;
     EXPECT_EQ(torus.direction, vec3(0, 0, 1));
