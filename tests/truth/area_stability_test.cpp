@@ -1,0 +1,115 @@
+// Area light from one frame to the next: what changes in the picture beyond what the truth does is flicker. `traced` takes as long as the
+// closed form here or longer, and its noise stands still on the screen: it changes as things move under it.
+#include "truth/shown.h"
+
+#include <cmath>
+
+namespace antumbra::truth {
+namespace {
+
+using render::Aov;
+
+class AreaStability : public DeviceTest
+{
+protected:
+    static constexpr int kChanges = 2;
+
+    struct Flicker
+    {
+        double analytic = 0, traced = 0; // W/m^2, RMS over the floor and the changes
+    };
+
+    static scene::ImageF irradianceBy(Shown& shown, const char* shadow)
+    {
+        shown.set("area.shadow", shadow);
+        return shown.capture(Aov::Irradiance);
+    }
+
+    static scene::ImageF truthOf(Shown& shown, uint32_t samples)
+    {
+        shown.set("area.shadow", "reference");
+        shown.set("reference.samples", std::to_string(samples));
+        do
+            shown.draw();
+        while (shown.renderer().referenceSamples().value() < samples);
+        return shown.capture(Aov::Irradiance);
+    }
+
+    static scene::ImageF difference(scene::ImageF a, const scene::ImageF& b)
+    {
+        for (size_t i = 0; i < a.values.size(); ++i)
+            a.values[i] -= b.values[i];
+        return a;
+    }
+
+    /// Level surface that stays where it is.
+    static std::vector<size_t> floorOf(Shown& shown, const scene::ImageF& depthBefore)
+    {
+        const scene::ImageF depth = shown.capture(Aov::Depth), normals = shown.capture(Aov::Normal);
+        std::vector<size_t> level;
+        for (const size_t pixel : surfaceOf(depth))
+            if (pixelOf(normals, pixel).y > 0.999f && std::abs(depth.values[pixel] - depthBefore.values[pixel]) < 1e-3f)
+                level.push_back(pixel);
+        return level;
+    }
+
+    /// Clips go on and lights move, as in frames of a sixtieth of a second.
+    Flicker flickerIn(const scene::SceneFile& scene, uint32_t samples)
+    {
+        Shown shown(device(), scene, {128, 72});
+        shown.set("area.scale", "1");
+        shown.set("area.pieces", "64");
+        shown.set("area.rays", "16");
+        scene::ImageF depth, truth, analytic, traced;
+        Flicker squares;
+        for (int frame = 0; frame <= kChanges; ++frame) {
+            shown.advance(1.0f / 60);
+            for (render::AreaLightDraw& light : shown.view().areaLights)
+                light.world[3] += vec4(0.006f, 0, 0.003f, 0) * static_cast<float>(frame);
+            const scene::ImageF truthNow = truthOf(shown, samples), analyticNow = irradianceBy(shown, "analytic"),
+                                tracedNow = irradianceBy(shown, "traced");
+            if (frame > 0) {
+                const std::vector<size_t> level = floorOf(shown, depth);
+                const scene::ImageF change = difference(truthNow, truth);
+                squares.analytic += std::pow(rmse(difference(analyticNow, analytic), change, level), 2) / kChanges;
+                squares.traced += std::pow(rmse(difference(tracedNow, traced), change, level), 2) / kChanges;
+            }
+            depth = shown.capture(Aov::Depth);
+            truth = truthNow;
+            analytic = analyticNow;
+            traced = tracedNow;
+        }
+        return {std::sqrt(squares.analytic), std::sqrt(squares.traced)};
+    }
+
+    void expectStable(const scene::SceneFile& scene, uint32_t samples, double share)
+    {
+        const Flicker flicker = flickerIn(scene, samples);
+        RecordProperty("analytic", std::to_string(flicker.analytic));
+        RecordProperty("traced", std::to_string(flicker.traced));
+        EXPECT_LE(flicker.analytic, share * flicker.traced);
+        EXPECT_GT(flicker.analytic, 0) << "nothing moved";
+    }
+};
+
+TEST_F(AreaStability, BodiesThatAreWhatTheyStandForFlickerByATenthOfWhatRaysDo)
+{
+    for (const char* name : {"dining", "gallery"}) {
+        SCOPED_TRACE(name);
+        expectStable(namedScene(name), 4096, 0.1);
+    }
+}
+
+// What is left is the hulls': their shadow is another than the character's, and moves along.
+TEST_F(AreaStability, CharactersFlickerTheLessTheFinerTheirHulls)
+{
+    scene::SceneFile coarse = namedScene("stage"), fine = coarse;
+    for (scene::SceneEntity& entity : fine.entities)
+        if (entity.occluder)
+            entity.occluder->greatestVertices = 32;
+    expectStable(coarse, 512, 1.5);
+    expectStable(fine, 512, 0.5);
+}
+
+} // namespace
+} // namespace antumbra::truth
