@@ -1,12 +1,13 @@
 // Light of area lights that reaches what is seen, past what stands before them. Variants: SHADOW is kAreaUnshadowed (times shares that others
 // found), kAreaAnalytic (KT et al. 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its points anew each frame; GLOSSY
-// reflects by GGX too; COMPUTE_BVH traces without ray queries; TRIANGLES and sizes as in lib/area.glsl.
+// reflects by GGX too; COMPUTE_BVH traces without ray queries; FIELDS: rays meet distance fields too; TRIANGLES and sizes as in lib/area.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
 #include "shared/composite.h"
+#include "shared/field.h"
 #include "shared/occlusion.h"
 #ifndef SHADOW
 #define SHADOW 1
@@ -41,11 +42,18 @@
 #endif
 #include "lib/light_points.glsl"
 #include "lib/light_samples.glsl"
+#ifdef FIELDS
+#include "lib/field.glsl"
+#include "lib/field_ray.glsl"
+#endif
 #endif
 
 layout(buffer_reference, scalar) readonly buffer Areas { AreaBlock block; };
 layout(buffer_reference, scalar) readonly buffer Lights { AreaLightBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Tiles { AreaTileBlock block[]; };
+#ifdef FIELDS
+layout(buffer_reference, scalar) readonly buffer Fields { FieldsBlock block; };
+#endif
 layout(buffer_reference, scalar) readonly buffer Owners { uint light[]; };
 layout(buffer_reference, scalar) readonly buffer Shares { vec2 value[]; };
 layout(buffer_reference, scalar) readonly buffer Seen { float share[]; };
@@ -68,19 +76,29 @@ bool isFallback = false;
 
 #if SHADOW == 2
 
-Received received(BodyArrays arrays, AreaLightBlock light, uint index, LitSurface s, ivec2 pixel)
+bool isHidden(AreaBlock area, LitSurface s, LightSample point)
 {
+    bool isHidden = distanceToBlocker(pc.scene, s.position, point.direction, point.before, true) >= 0.0;
+#ifdef FIELDS
+    isHidden = isHidden || fieldBlocks(Fields(area.fields).block, s.position, point.direction, point.before);
+#endif
+    return isHidden;
+}
+
+Received received(AreaBlock area, AreaLightBlock light, uint index, LitSurface s, ivec2 pixel)
+{
+    BodyArrays arrays = area.arrays;
     BodyBlock body = Bodies(arrays.bodies).body[light.body];
     Received sum = Received(vec3(0.0), vec3(0.0));
-    float area = litArea(arrays, body, s.position);
+    float squareMetres = litArea(arrays, body, s.position);
     vec2 shift = pointShift(pixel, index);
     uint first = 0u;
 #ifdef REFERENCE
     first = pc.frameIndex * pc.rays;
 #endif
-    for (uint i = 0u; i < pc.rays && area > 0.0; ++i) {
-        LightSample point = lightSample(arrays, body, s, area, pointOfSequence(shift, first + i));
-        if (point.diffuse == 0.0 || distanceToBlocker(pc.scene, s.position, point.direction, point.before, true) >= 0.0)
+    for (uint i = 0u; i < pc.rays && squareMetres > 0.0; ++i) {
+        LightSample point = lightSample(arrays, body, s, squareMetres, pointOfSequence(shift, first + i));
+        if (point.diffuse == 0.0 || isHidden(area, s, point))
             continue;
         sum = Received(sum.diffuse + point.diffuse, sum.specular + point.specular);
     }
@@ -239,11 +257,7 @@ void main()
         mostPlanes = pc.mostPlanes;
         for (uint i = pc.firstLight; i < pc.endLight; ++i) {
             AreaLightBlock light = Lights(area.lights).block[i];
-#if SHADOW == 2
-            Received one = received(area.arrays, light, i, s, pixel);
-#else
             Received one = received(area, light, i, s, pixel);
-#endif
             vec2 seen = shareSeen(i, uint(litPixel.y * lit.x + litPixel.x), uint(lit.x * lit.y));
             sum = Received(sum.diffuse + seen.x * one.diffuse, sum.specular + seen.y * one.specular);
         }

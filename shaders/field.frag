@@ -43,12 +43,13 @@ void main()
     vec2 way = wayInBox(frameBlock.eye, direction, pc.lowest, pc.highest);
     way.x = max(way.x, frameBlock.near * metresADepth);
     float pixel = length(frameBlock.rayX) / metresADepth; // metres a metre of the way
-    FieldHit hit = traceField(pc.fields, frameBlock.eye, direction, way.x, way.y, 0.1 * pixel);
+    FieldsBlock fields = fieldsAlong(pc.fields, frameBlock.eye, direction, pixel, way);
+    FieldHit hit = traceField(fields, frameBlock.eye, direction, way.x, way.y, 0.1 * pixel);
     bool isHit = hit.at > 0.0;
     vec3 position = frameBlock.eye + direction * max(hit.at, 0.0);
-    vec3 normal = fieldNormal(pc.fields, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5, isHit);
+    vec3 normal = fieldNormal(fields, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5, isHit);
     normal = dot(normal, direction) > 0.0 ? -normal : normal; // the side that is seen is the side that is lit
-    FieldSurfaceBlock surface = fieldSurface(pc.fields, position, isHit);
+    FieldSurfaceBlock surface = fieldSurface(fields, position, isHit);
 
     gl_FragDepth = isHit ? clamp(frameBlock.near * metresADepth / hit.at, 0.0, 1.0) : 0.0;
     outNormals = vec4(octahedralFromUnit(normal), octahedralFromUnit(normal));

@@ -1,5 +1,6 @@
 // Which share of each area light is seen past all signed distance fields (Ban, Balint, Valasek 2020). Variant METHOD: kFieldQuilez,
-// kFieldAaltonen, kFieldCone1, kFieldSubCones or kFieldTraced.
+// kFieldAaltonen, kFieldCone1, kFieldSubCones or kFieldTraced; the first three take lights for the spheres around them, and so does the fourth
+// without OUTLINES.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -7,59 +8,101 @@
 #include "lib/frame.glsl"
 #include "shared/area.h"
 #include "shared/composite.h"
+#ifndef METHOD
+#define METHOD 3
+#endif
+#ifdef OUTLINES
+#define POLYGON_PLACES 6
+#define POLYGON_CORNERS 36
+#define SILHOUETTE_EDGES 64
+#define SILHOUETTE_BODY_EDGES 64
+#define FACE_WORDS 4
+#define OUTLINE_CORNERS 30
+#define LIGHT_VERTICES 64
+#define AREA_OCCLUDERS 1
+#endif
+#include "lib/bodies.glsl"
 #include "lib/field.glsl"
 #include "lib/field_cone.glsl"
 #include "lib/field_baseline.glsl"
-#include "lib/surface.glsl"
+#include "lib/lit_surface.glsl"
+#include "lib/point_sequence.glsl"
 #include "lib/spread.glsl"
-#ifndef METHOD
-#define METHOD 3
+#ifdef OUTLINES
+#include "lib/area_occluders.glsl"
+#include "lib/field_cells.glsl"
+#include "lib/field_light.glsl"
+#endif
+#if METHOD == 4
+#include "lib/field_ray.glsl"
+#include "lib/light_points.glsl"
+#include "lib/light_samples.glsl"
 #endif
 
 layout(buffer_reference, scalar) readonly buffer Areas { AreaBlock block; };
 layout(buffer_reference, scalar) readonly buffer Lights { AreaLightBlock block[]; };
-layout(buffer_reference, scalar) readonly buffer Bodies { BodyBlock body[]; };
 layout(buffer_reference, scalar) writeonly buffer Seen { float share[]; };
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { FieldShade pc; };
 
 layout(local_size_x = kAreaGroupWidth, local_size_y = kAreaGroupHeight) in;
 
-float seenOf(vec3 position, vec3 centre, float radius)
+#if METHOD == 4
+
+// By points on the light, as they light a diffuse surface.
+float seenOf(AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
+{
+    float squareMetres = litArea(area.arrays, light, s.position), seen = 0.0, all = 0.0;
+    for (uint i = 0u; i < pc.rays && squareMetres > 0.0; ++i) {
+        LightSample point = lightSample(area.arrays, light, s, squareMetres, pointOfSequence(shift, i));
+        bool isSeen = point.diffuse > 0.0;
+        if (isSeen)
+            isSeen = !fieldBlocks(pc.fields, s.position, point.direction, point.before);
+        seen += isSeen ? point.diffuse : 0.0;
+        all += point.diffuse;
+    }
+    return all > 0.0 ? seen / all : 1.0;
+}
+
+#else
+
+float seenOf(AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
 {
 #if METHOD == 0
-    return quilezVisibility(pc.fields, position, centre, radius);
+    return quilezVisibility(pc.fields, s.position, light.centre, light.radius);
 #elif METHOD == 1
-    return aaltonenVisibility(pc.fields, position, centre, radius);
+    return aaltonenVisibility(pc.fields, s.position, light.centre, light.radius);
 #elif METHOD == 2
-    return coneVisibility(pc.fields, position, centre, radius, pc.tolerance);
+    return coneVisibility(pc.fields, s.position, light.centre, light.radius, pc.tolerance);
+#elif defined(OUTLINES)
+    if ((light.flags & kBodySphere) == 0u)
+        return lightVisibility(pc.fields, area.arrays, light, s.position, s.normal, pc.cells);
+    return subConeVisibility(pc.fields, s.position, light.centre, light.radius, pc.cones);
 #else
-    return subConeVisibility(pc.fields, position, centre, radius, pc.cones);
+    return subConeVisibility(pc.fields, s.position, light.centre, light.radius, pc.cones);
 #endif
 }
 
+#endif
+
 void main()
 {
-    uvec2 litPixel = spreadInvocation(kAreaGroupHeight);
-    ivec2 extent = textureSize(sampledImages[pc.depth], 0);
-    ivec2 pixel = min(ivec2(litPixel) * pc.pixelScale + pc.pixelScale / 2, extent - 1);
-    bool isInside = litPixel.x < pc.litWidth && litPixel.y < pc.litHeight;
+    ivec2 litPixel = ivec2(spreadInvocation(kAreaGroupHeight)), extent = textureSize(sampledImages[pc.depth], 0);
+    ivec2 pixel = litAt(litPixel, pc.pixelScale, extent);
+    bool isInside = litPixel.x < int(pc.litWidth) && litPixel.y < int(pc.litHeight);
     float depth = isInside ? texelFetch(sampledImages[pc.depth], pixel, 0).x : 0.0;
     AreaBlock area = Areas(pc.area).block;
-    vec3 position = worldPosition(frameBlock, vec2(pixel) + 0.5, max(depth, 1.0e-9));
-    vec4 octahedral = texelFetch(sampledImages[pc.normals], pixel, 0);
-    vec3 shading = unitFromOctahedral(octahedral.zw);
+    LitSurface s = litSurface(frameBlock, SurfaceImages(pc.normals, 0u, 0u), pixel, max(depth, 1.0e-9));
     // Off the surface by half the pixel's width too: cones would creep along what they start on.
-    vec3 normal = unitFromOctahedral(octahedral.xy);
     float width = length(frameBlock.rayX) * frameBlock.near / max(depth, 1.0e-9);
-    vec3 origin = rayOrigin(position, normal, frameBlock.eye) + 0.5 * width * normal;
+    s.position += 0.5 * width * unitFromOctahedral(texelFetch(sampledImages[pc.normals], pixel, 0).xy);
     for (uint i = 0u; i < area.lightCount; ++i) {
         BodyBlock light = Bodies(area.arrays.bodies).body[Lights(area.lights).block[i].body];
         // What faces away from all of the light is not lit whatever stands between.
-        bool isFacing = depth > 0.0 && dot(shading, light.centre - origin) > -light.radius;
-        float seen = isFacing ? seenOf(origin, light.centre, light.radius) : 0.0;
+        bool isFacing = depth > 0.0 && dot(s.normal, light.centre - s.position) > -light.radius;
+        float seen = isFacing ? seenOf(area, light, s, pointShift(pixel, i)) : 0.0;
         if (isInside)
-            Seen(pc.seen).share[(i * pc.litHeight + litPixel.y) * pc.litWidth + litPixel.x] = seen;
+            Seen(pc.seen).share[(uint(i) * pc.litHeight + uint(litPixel.y)) * pc.litWidth + uint(litPixel.x)] = seen;
     }
     uint evaluations = subgroupAdd(depth > 0.0 ? fieldEvaluations : 0u);
     if (subgroupElect())

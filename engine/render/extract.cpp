@@ -80,6 +80,13 @@ void extractCharacters(const ecs::World& world, const scene::Assets& assets, Fra
     }
 }
 
+bool isScaledEvenly(const mat4& world)
+{
+    const vec3 lengths(glm::length(vec3(world[0])), glm::length(vec3(world[1])), glm::length(vec3(world[2])));
+    const float greatest = std::max({lengths.x, lengths.y, lengths.z});
+    return std::min({lengths.x, lengths.y, lengths.z}) > 0.999f * greatest;
+}
+
 void extractAreaLights(const ecs::World& world, FrameView& view)
 {
     for (auto [light, bodies, matrix] : Each<const scene::AreaLight, const scene::LightBodies, const scene::WorldMatrix>(world))
@@ -89,6 +96,7 @@ void extractAreaLights(const ecs::World& world, FrameView& view)
                                    .world = matrix.now,
                                    .radiance = light.radiance,
                                    .isTwoSided = light.isTwoSided,
+                                   .isSphere = light.shape == scene::LightShape::Sphere && isScaledEvenly(matrix.now),
                                    .shadow = light.shadow});
 }
 

@@ -197,6 +197,8 @@ float localRadius(const FieldStepBlock& step)
 /// It matters wherever one is: what has no end, and what takes away all beyond it.
 bool isEverywhere(const FieldStepBlock& step) { return step.shape == shader::kFieldPlane || step.operation == shader::kFieldIntersect; }
 
+bool isUnion(const FieldStepBlock& step) { return step.operation == shader::kFieldUnion; }
+
 // A step's distance is `scale` times the local one, and that is at least the way to the centre, which its transform stretches by no more
 // than `most`, less the local radius.
 void boundGroup(FieldGroupBlock& group, std::span<const FieldStepBlock> steps)
@@ -266,7 +268,7 @@ void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBl
     groups.clear();
     for (uint32_t i = 0; i < steps.size(); ++i) {
         const bool isOpen = !groups.empty() && !isEverywhere(steps[i]) && !isEverywhere(steps[i - 1]) &&
-                            (steps[i].flags & shader::kFieldBegins) == 0 &&
+                            (steps[i].flags & shader::kFieldBegins) == 0 && isUnion(steps[i]) == isUnion(steps[i - 1]) &&
                             groups.back().endStep - groups.back().firstStep < shader::kFieldGroupSteps;
         if (!isOpen)
             groups.push_back({.firstStep = i, .endStep = i});

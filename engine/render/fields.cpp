@@ -30,20 +30,24 @@ FieldFrame Fields::write(const FrameView& view)
 {
     if (view.fieldSteps.empty())
         return {};
+    listed_.clear();
     steps_.clear();
     surfaces_.clear();
     FieldFrame fields{.lowest = vec3(1e30f), .highest = vec3(-1e30f)};
     for (const FieldStepDraw& draw : view.fieldSteps) {
-        steps_.push_back(draw.step);
-        surfaces_.push_back(draw.surface);
+        listed_.push_back(draw.step);
         addBox(fields, draw.step, view.camera.eye);
+    }
+    for (const uint32_t index : order_.of(listed_)) {
+        steps_.push_back(listed_[index]);
+        surfaces_.push_back(view.fieldSteps[index].surface);
     }
     writeGroups(steps_, groups_);
     fields.block = {.steps = frameCopy(*device_, steps_),
                     .groups = frameCopy(*device_, groups_),
                     .surfaces = frameCopy(*device_, surfaces_),
                     .groupCount = static_cast<uint32_t>(groups_.size()),
-                    .padding = 0};
+                    .skipped = 0};
     return fields;
 }
 

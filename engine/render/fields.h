@@ -2,6 +2,7 @@
 #pragma once
 
 #include "graph/executor.h"
+#include "render/field_order.h"
 #include "render/frame_view.h"
 #include "render/gpu_scene.h"
 
@@ -52,7 +53,8 @@ private:
     };
 
     gpu::Device* device_;
-    std::vector<shader::FieldStepBlock> steps_;
+    FieldOrder order_;
+    std::vector<shader::FieldStepBlock> listed_, steps_; // as the scene lists them, and in order
     std::vector<shader::FieldSurfaceBlock> surfaces_;
     std::vector<shader::FieldGroupBlock> groups_;
     std::deque<Made> pipelines_;

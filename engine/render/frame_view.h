@@ -59,6 +59,7 @@ struct AreaLightDraw
     mat4 world{1};
     vec3 radiance{0}; // W/(m^2 sr)
     bool isTwoSided = false;
+    bool isSphere = false;                    // its body stands for the sphere around it
     std::optional<scene::LightShadow> shadow; // none: as the knob area.shadow says
 };
 

@@ -75,10 +75,15 @@ float fieldCombined(FieldStepBlock s, float before, float own)
     }
 }
 
+// Of a sphere about all that the group holds and melts with, metres.
+float groupRadius(FieldGroupBlock group) { return group.reach / max(group.slope, 1.0e-6); }
+
+bool isLookedAt(FieldsBlock fields, uint g) { return (fields.skipped >> (g & 31u) & 1u) == 0u; }
+
 // Whether steps of the group can change the distance so far.
 bool mattersAt(FieldGroupBlock group, vec3 p, float so) { return group.slope * distance(p, group.centre) - group.reach < abs(so); }
 
-// Of all fields together. Groups that do not matter are loops that go round for nobody, which is
+// Of all fields together, and of the groups that are looked at. Groups that do not matter are loops that go round for nobody, which is
 // what spares CPU devices the work.
 float fieldDistance(FieldsBlock fields, vec3 p)
 {
@@ -92,7 +97,7 @@ float fieldDistance(FieldsBlock fields, vec3 p)
         bool begins = (steps.step[first].flags & kFieldBegins) != 0u;
         whole = begins ? min(whole, so) : whole;
         so = begins ? kFieldFar : so;
-        end = mattersAt(group, p, so) ? end : first;
+        end = isLookedAt(fields, g) && mattersAt(group, p, so) ? end : first;
         for (uint i = first; i < end; ++i)
             so = fieldCombined(steps.step[i], so, fieldShape(steps.step[i], p));
     }

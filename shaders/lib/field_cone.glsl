@@ -140,6 +140,24 @@ FieldCone coneToSphere(vec3 p, vec3 axis, float distanceLight, float radius, flo
     return FieldCone(p, axis, radiusHere, min((radius - radiusHere) / distanceLight, 0.9999));
 }
 
+// Looks at the groups alone that reach into the cone between the apex and `end` metres along it.
+FieldsBlock fieldsInCone(FieldsBlock fields, FieldCone cone, float end)
+{
+    float cosine = sqrt((1.0 - cone.slope) * (1.0 + cone.slope));
+    uint near = 0u;
+    for (uint g = 0u; g < fields.groupCount; ++g) {
+        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        vec3 to = group.centre - cone.apex;
+        float along = dot(to, cone.axis), aside = sqrt(max(dot(to, to) - along * along, 0.0));
+        // The ball in the cone whose surface is nearest: where the way there is at right angles to the cone's side.
+        float t = clamp(along + aside * cone.slope / cosine, 0.0, end);
+        float apart = length(vec2(aside, along - t)) - cone.radius - cone.slope * t;
+        near |= apart < groupRadius(group) ? 1u << (g & 31u) : 0u;
+    }
+    fields.skipped |= ~near;
+    return fields;
+}
+
 // Places and radii of the cones that share a disc, as shares of its radius: of rings that err least for one straight edge anywhere.
 vec3 subConePlace(uint k, uint count)
 {
@@ -197,10 +215,18 @@ float blockedSubConeSeen(FieldsBlock fields, FieldCone cone, uint k, uint count,
     return max(pastEdge, rod * besideRod);
 }
 
+// All that any of the methods' cones may meet: a little more than the sphere, as those that share it stand out.
+FieldsBlock fieldsTowards(FieldsBlock fields, vec3 p, vec3 centre, float radius)
+{
+    float distanceLight = max(length(centre - p), 1.0e-20);
+    return fieldsInCone(fields, coneToSphere(p, (centre - p) / distanceLight, distanceLight, 1.1 * radius, 0.5 * radius), distanceLight);
+}
+
 // The default: the span that one wide cone finds something in, and in it a cone each for parts of the light.
 float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, uint count)
 {
     FieldReceiver at = fieldReceiver(fields, p, centre, radius);
+    fields = fieldsTowards(fields, p, centre, radius);
     float radiusHere = min(at.distance, 0.5 * radius), end = at.distanceLight - radius;
     if (at.settled >= 0.0 || end <= 0.0)
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);

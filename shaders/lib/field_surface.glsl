@@ -10,6 +10,27 @@ struct FieldHit
     uint steps;
 };
 
+// Looks at the groups alone that the ray meets, a metre of whose way is `width` metres wide, and narrows its way to where they are.
+FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, float width, inout vec2 way)
+{
+    vec2 narrowed = vec2(way.y, way.x);
+    uint near = 0u;
+    for (uint g = 0u; g < fields.groupCount; ++g) {
+        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        vec3 to = group.centre - origin;
+        float along = dot(to, direction), radius = groupRadius(group) + width * max(along, 0.0);
+        vec3 aside = to - direction * along;
+        float half2 = radius * radius - dot(aside, aside);
+        float halfSpan = sqrt(max(half2, 0.0));
+        bool isMet = half2 > 0.0 && along + halfSpan > way.x && along - halfSpan < way.y;
+        near |= isMet ? 1u << (g & 31u) : 0u;
+        narrowed = isMet ? vec2(min(narrowed.x, along - halfSpan), max(narrowed.y, along + halfSpan)) : narrowed;
+    }
+    way = vec2(max(way.x, narrowed.x), min(way.y, narrowed.y));
+    fields.skipped |= ~near;
+    return fields;
+}
+
 // Sphere tracing (Hart 1996) by steps longer than what is clear, taken back where two balls in a row do not meet (Keinert et al. 2014). A ray
 // that comes as near as `width` a metre of its way has met the surface.
 FieldHit traceField(FieldsBlock fields, vec3 origin, vec3 direction, float from, float to, float width)
@@ -77,7 +98,7 @@ FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
             whole = min(whole, so);
             so = kFieldFar;
         }
-        end = mattersAt(group, p, so) ? end : first;
+        end = isLookedAt(fields, g) && mattersAt(group, p, so) ? end : first;
         for (uint i = first; i < end; ++i) {
             FieldStepBlock s = steps.step[i];
             float own = fieldShape(s, p);

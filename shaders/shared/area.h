@@ -7,6 +7,7 @@ const uint kNoFace = 0xffffu;
 const uint kBodyPlanar = 1u; // one polygon, no inside
 const uint kBodyTwoSided = 2u; // a planar light shines to both sides; what blocks does so from both
 const uint kBodyFrontOnly = 4u; // a triangle of a closed mesh: the side that is seen blocks
+const uint kBodySphere = 16u; // stands for the sphere around it
 const uint kBodyHollow = 8u; // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
 
 // A convex polyhedron or polygon. What is counted from its first is indexed relative to it.
@@ -78,6 +79,7 @@ struct AreaTileBlock
 struct AreaBlock
 {
     BodyArrays arrays;
+    uint64_t fields; // FieldsBlock: what shadow rays meet too; null: nothing
     uint64_t lights; // AreaLightBlock[lightCount]
     uint64_t owners; // uint[occluderCount]: the light that the occluder is the body of, or any other number
     uint firstOccluder; // into the bodies

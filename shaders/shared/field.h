@@ -29,7 +29,7 @@ struct FieldStepBlock
     uint flags;
 };
 
-const uint kFieldGroupSteps = 8u; // at most
+const uint kFieldGroupSteps = 4u; // at most
 
 // Steps in a row of one field that matter only near them: the distance of each is at least slope * |p - centre| - reach, and none of them
 // changes a distance that is less than that, inside a solid as outside.
@@ -49,7 +49,7 @@ struct FieldsBlock
     uint64_t groups; // FieldGroupBlock[groupCount]
     uint64_t surfaces; // FieldSurfaceBlock[], one a step
     uint groupCount;
-    uint padding;
+    uint skipped; // groups that are not looked at: bit g % 32 for group g
 };
 
 // What light does on a step's surface.

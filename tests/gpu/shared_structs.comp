@@ -327,7 +327,7 @@ void echo(FieldsBlock b)
     put(b.groups);
     put(b.surfaces);
     put(b.groupCount);
-    put(b.padding);
+    put(b.skipped);
 }
 
 #elif defined(FIELD_SURFACE_BLOCK)

@@ -59,7 +59,7 @@ void put(FieldsBlock value)
     put(value.groups);
     put(value.surfaces);
     put(value.groupCount);
-    put(value.padding);
+    put(value.skipped);
 }
 
 void put(MaterialBlock value)

@@ -127,6 +127,7 @@ void echo(AreaBlock b)
     put(b.arrays.faces);
     put(b.arrays.corners);
     put(b.arrays.edges);
+    put(b.fields);
     put(b.lights);
     put(b.owners);
     put(b.firstOccluder);

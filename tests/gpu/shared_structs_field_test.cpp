@@ -20,7 +20,7 @@ TEST_F(SharedStructs, FieldGroupBlock)
 TEST_F(SharedStructs, FieldsBlock)
 {
     expectSameLayout<shader::FieldsBlock>("FIELDS_BLOCK",
-                                          [](const auto& b) { return wordsOf(b.steps, b.groups, b.surfaces, b.groupCount, b.padding); });
+                                          [](const auto& b) { return wordsOf(b.steps, b.groups, b.surfaces, b.groupCount, b.skipped); });
 }
 
 TEST_F(SharedStructs, FieldSurfaceBlock)

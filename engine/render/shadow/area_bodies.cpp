@@ -32,7 +32,8 @@ void AreaBodies::addLights(const FrameView& view)
                 continue;
             for (uint32_t part = light.firstPart; part < light.firstPart + light.partCount; ++part) {
                 const scene::ConvexBody& body = assets_->bodyParts[part].body;
-                lights_.push_back({light.radiance, bodies_.add(body, light.world, light.isTwoSided ? shader::kBodyTwoSided : 0u), index});
+                const uint32_t flags = (light.isTwoSided ? shader::kBodyTwoSided : 0u) | (light.isSphere ? shader::kBodySphere : 0u);
+                lights_.push_back({light.radiance, bodies_.add(body, light.world, flags), index});
                 sizes_.isPlanar = sizes_.isPlanar && body.isPlanar;
                 grow(sizes_.outlineCorners, body.isPlanar ? body.corners.size() : body.vertices.size());
                 for (const scene::ConvexBody::Face& face : body.faces)
@@ -58,7 +59,7 @@ void AreaBodies::addOccluders(const FrameView& view)
     }
 }
 
-VkDeviceAddress AreaBodies::write(const FrameView& view, uint32_t tilesAcross)
+VkDeviceAddress AreaBodies::write(const FrameView& view, uint32_t tilesAcross, VkDeviceAddress fields)
 {
     bodies_.clear();
     lights_.clear();
@@ -73,6 +74,7 @@ VkDeviceAddress AreaBodies::write(const FrameView& view, uint32_t tilesAcross)
                                              .faces = frameCopy(*device_, bodies_.faces),
                                              .corners = frameCopy(*device_, bodies_.corners),
                                              .edges = frameCopy(*device_, bodies_.edges)},
+                                  .fields = fields,
                                   .lights = frameCopy(*device_, lights_),
                                   .owners = frameCopy(*device_, owners_),
                                   .firstOccluder = firstOccluder,

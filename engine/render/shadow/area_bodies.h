@@ -26,8 +26,9 @@ class AreaBodies
 public:
     explicit AreaBodies(gpu::Device& device, const scene::Assets& assets) : device_(&device), assets_(&assets) {}
 
-    /// Between Device::beginFrame and endFrame. Returns the address of the frame's AreaBlock. Keeps its memory.
-    VkDeviceAddress write(const FrameView& view, uint32_t tilesAcross);
+    /// Between Device::beginFrame and endFrame. `fields` is the address of a FieldsBlock, or null. Returns that of the frame's AreaBlock.
+    /// Keeps its memory.
+    VkDeviceAddress write(const FrameView& view, uint32_t tilesAcross, VkDeviceAddress fields);
 
     [[nodiscard]] std::span<const AreaLightRange> ranges() const { return ranges_; }
     [[nodiscard]] const AreaSizes& sizes() const { return sizes_; }

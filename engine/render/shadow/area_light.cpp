@@ -1,6 +1,7 @@
 #include "render/shadow/area_light.h"
 
 #include "bake/ltc.h"
+#include "render/frame_copy.h"
 #include "render/shadow/fingerprint.h"
 
 #include <algorithm>
@@ -96,16 +97,20 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const LitFrame& frame, con
             pass.read(image, Use::Sampled);
     const bool isTraced = traces(range.shadow), hasTiles = isTiled(range.shadow);
     const graph::BufferRef tiles = hasTiles ? occluderTiles_ : graph::BufferRef{};
-    for (const graph::BufferRef buffer : {tiles, shading.shares, seenPastFields_})
+    const graph::BufferRef seenPastFields = isTraced ? graph::BufferRef{} : seenPastFields_; // rays meet fields themselves
+    for (const graph::BufferRef buffer : {tiles, shading.shares, seenPastFields})
         if (buffer)
             pass.read(buffer, Use::StorageRead);
     if (isTraced)
         pass.read(frame.posed->scene, frame.posed->sceneUse);
-    const gpu::Pipeline& pipeline =
-        pipelines_.shade({range.shadow, frame.isGlossy, isTraced ? frame.scene->backend() : RayBackend::Auto, bodies_.sizes()});
+    const gpu::Pipeline& pipeline = pipelines_.shade({.shadow = range.shadow,
+                                                      .isGlossy = frame.isGlossy,
+                                                      .backend = isTraced ? frame.scene->backend() : RayBackend::Auto,
+                                                      .hasFields = isTraced && !frame.view->fieldSteps.empty(),
+                                                      .sizes = bodies_.sizes()});
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
     pass.record([this, &pipeline, area = frame.area, slot = frame.slot, scale = frame.pixels.scale, g, range, shading, tiles, counters,
-                 traced, seen = seenPastFields_, knobs = frame.view->knobs.area](graph::Recorder& recorder) {
+                 traced, seen = seenPastFields, knobs = frame.view->knobs.area](graph::Recorder& recorder) {
         const auto sampled = [&](graph::ImageRef image) { return image ? recorder.sampled(image) : shader::kNothingBefore; };
         const auto address = [&](graph::BufferRef buffer) { return buffer ? recorder.address(buffer) : 0; };
         recorder.dispatch(pipeline,
@@ -232,12 +237,12 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                          .scene = &scene,
                          .g = &g,
                          .posed = &posed,
-                         .area = bodies_.write(view, tileCount.x),
+                         .area = bodies_.write(view, tileCount.x, fields ? frameCopy(*device_, std::span(&fields.block, 1)) : 0),
                          .pixels = {.extent = (extent + scale - 1u) / scale, .scale = scale},
                          .slot = slot,
                          .isGlossy = static_cast<bool>(g.material)};
     prepareTables(frame.isGlossy);
-    seenPastFields_ = fieldShadows_.declare(graph, view, slot, fields, g, frame.area, bodies_.lightCount(), frame.pixels, counters);
+    seenPastFields_ = fieldShadows_.declare(graph, frame, fields, bodies_.ranges(), counters);
     if (view.probedPixel)
         probe_.declare(graph, slot, g, frame.area, *view.probedPixel, view.knobs.area.planes);
     if (std::ranges::any_of(bodies_.ranges(), isTiled, &AreaLightRange::shadow))

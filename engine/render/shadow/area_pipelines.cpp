@@ -73,21 +73,20 @@ const gpu::Pipeline& AreaPipelines::shade(const Variant& variant)
     const AreaSizes sizes = rounded(traces(variant.shadow) ? AreaSizes{} : hasTriangles ? ofTriangles(variant.sizes) : variant.sizes);
     const auto found = std::ranges::find_if(made_, [&](const Made& made) {
         return made.shadow == shadow && made.isReference == isReference && made.hasTriangles == hasTriangles &&
-               made.isGlossy == variant.isGlossy && made.backend == variant.backend && made.sizes == sizes;
+               made.isGlossy == variant.isGlossy && made.hasFields == variant.hasFields && made.backend == variant.backend &&
+               made.sizes == sizes;
     });
     if (found != made_.end())
         return found->pipeline;
     std::vector<gpu::ShaderDefine> defines = sizeDefines(sizes, hasTriangles ? kTrianglesALight : kOccludersALight);
     defines.push_back({"SHADOW", shadow});
-    const std::pair<bool, std::string_view> parts[] = {{sizes.isPlanar, "PLANAR_LIGHTS"},
-                                                       {variant.isGlossy, "GLOSSY"},
-                                                       {hasTriangles, "TRIANGLES"},
-                                                       {isReference, "REFERENCE"},
-                                                       {variant.backend == RayBackend::ComputeBvh, "COMPUTE_BVH"}};
+    const std::pair<bool, std::string_view> parts[] = {
+        {sizes.isPlanar, "PLANAR_LIGHTS"}, {variant.isGlossy, "GLOSSY"}, {hasTriangles, "TRIANGLES"},
+        {variant.hasFields, "FIELDS"},     {isReference, "REFERENCE"},   {variant.backend == RayBackend::ComputeBvh, "COMPUTE_BVH"}};
     for (const auto& [isPart, define] : parts)
         if (isPart)
             defines.push_back({define});
-    made_.push_back({shadow, isReference, hasTriangles, variant.isGlossy, variant.backend, sizes,
+    made_.push_back({shadow, isReference, hasTriangles, variant.isGlossy, variant.hasFields, variant.backend, sizes,
                      computePipeline(*device_, "area_shade.comp", defines)});
     return made_.back().pipeline;
 }

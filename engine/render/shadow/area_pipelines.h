@@ -22,6 +22,7 @@ public:
         scene::LightShadow shadow;
         bool isGlossy;
         RayBackend backend; // Auto for what traces none
+        bool hasFields;     // in the way of rays
         AreaSizes sizes;    // of the frame; what traces rays does not depend on them
     };
     /// Stays where it is as others are made: passes hold on to it.
@@ -31,7 +32,7 @@ private:
     struct Made
     {
         int shadow; // as the shader counts them
-        bool isReference, hasTriangles, isGlossy;
+        bool isReference, hasTriangles, isGlossy, hasFields;
         RayBackend backend;
         AreaSizes sizes;
         gpu::Pipeline pipeline;

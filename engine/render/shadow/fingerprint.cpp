@@ -17,6 +17,8 @@ uint64_t fingerprintOf(const FrameView& view, RayBackend backend, uvec2 extent)
         add(draw.slot, draw.model, draw.world, draw.poseVersion);
     for (const AreaLightDraw& light : view.areaLights)
         add(light.firstPart, light.partCount, light.world, light.radiance, light.isTwoSided, view.shadowOf(light));
+    for (const FieldStepDraw& draw : view.fieldSteps)
+        add(draw.step, draw.surface);
     return print.value();
 }
 

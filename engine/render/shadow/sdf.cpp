@@ -1,10 +1,15 @@
 #include "render/shadow/sdf.h"
 
+#include <algorithm>
+
 namespace antumbra::render {
 
 namespace {
 
 using graph::Use;
+using scene::LightShadow;
+
+constexpr uint32_t kReferenceRays = 1024; // where reference.samples does not say
 
 uint32_t methodOf(FieldShadow shadow)
 {
@@ -12,52 +17,74 @@ uint32_t methodOf(FieldShadow shadow)
     case FieldShadow::Quilez: return shader::kFieldQuilez;
     case FieldShadow::Aaltonen: return shader::kFieldAaltonen;
     case FieldShadow::Cone: return shader::kFieldCone1;
+    case FieldShadow::Traced:
+    case FieldShadow::Reference: return shader::kFieldTraced;
     default: return shader::kFieldSubCones;
     }
 }
+
+uint32_t raysOf(const Knobs& knobs)
+{
+    if (knobs.sdf.shadow != FieldShadow::Reference)
+        return knobs.area.rays;
+    return knobs.reference.samples > 0 ? knobs.reference.samples : kReferenceRays;
+}
+
+bool findsRays(const AreaLightRange& range) { return range.shadow == LightShadow::Traced || range.shadow == LightShadow::Reference; }
 
 } // namespace
 
 void FieldShadowSystem::skip(graph::FrameGraph& graph, std::string_view reason) { graph.skip("sdf shadow", reason); }
 
-graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const FieldFrame& fields,
-                                            const GBuffer& g, VkDeviceAddress area, uint32_t lightCount, const LitPixels& lit,
-                                            graph::BufferRef& counters)
+const gpu::Pipeline& FieldShadowSystem::pipelineFor(uint32_t method, bool hasOutlines)
 {
-    const SdfKnobs& knobs = view.knobs.sdf;
-    if (!fields || knobs.shadow == FieldShadow::None) {
-        skip(graph, fields ? "sdf.shadow is none" : "no SDFPrimitive in the scene");
+    gpu::Pipeline& pipeline = pipelines_[2 * method + (hasOutlines ? 1 : 0)];
+    if (!pipeline) {
+        std::vector<gpu::ShaderDefine> defines{{"METHOD", static_cast<int>(method)}};
+        if (hasOutlines)
+            defines.push_back({"OUTLINES"});
+        pipeline = computePipeline(*device_, "field_shade.comp", defines);
+    }
+    return pipeline;
+}
+
+graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
+                                            std::span<const AreaLightRange> ranges, graph::BufferRef& counters)
+{
+    const Knobs& knobs = frame.view->knobs;
+    if (!fields || knobs.sdf.shadow == FieldShadow::None || std::ranges::all_of(ranges, findsRays)) {
+        skip(graph, !fields                                 ? "no SDFPrimitive in the scene"
+                    : knobs.sdf.shadow == FieldShadow::None ? "sdf.shadow is none"
+                                                            : "rays of area.shadow meet distance fields");
         return {};
     }
-    const uint32_t method = methodOf(knobs.shadow);
-    gpu::Pipeline& pipeline = pipelines_[method];
-    if (!pipeline) {
-        const gpu::ShaderDefine define{"METHOD", static_cast<int>(method)};
-        pipeline = computePipeline(*device_, "field_shade.comp", std::span(&define, 1));
-    }
+    const uint32_t method = methodOf(knobs.sdf.shadow);
+    const bool hasOutlines = method == shader::kFieldSubCones && !std::ranges::all_of(frame.view->areaLights, &AreaLightDraw::isSphere);
     graph::Pass pass = graph.add("sdf shadow");
-    pass.read(g.depth, Use::Sampled);
-    pass.read(g.normals, Use::Sampled);
+    pass.read(frame.g->depth, Use::Sampled);
+    pass.read(frame.g->normals, Use::Sampled);
     counters = pass.write(counters, Use::StorageWrite);
+    const uint32_t lightCount = ranges.back().end;
     const graph::BufferRef seen =
-        pass.createBuffer("seen past fields", size_t{lightCount} * lit.extent.x * lit.extent.y * sizeof(float), Use::StorageWrite);
-    pass.record([&pipeline, &knobs, frame, fields, g, area, lit, seen, counted = counters](graph::Recorder& recorder) {
+        pass.createBuffer("seen past fields", lightCount * frame.pixels.count() * sizeof(float), Use::StorageWrite);
+    pass.record([&pipeline = pipelineFor(method, hasOutlines), &knobs, fields, frame, g = *frame.g, seen,
+                 counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::FieldShade{.fields = fields.block,
-                                             .area = area,
+                                             .area = frame.area,
                                              .counters = recorder.address(counted),
                                              .seen = recorder.address(seen),
-                                             .frame = frame,
+                                             .frame = frame.slot,
                                              .depth = recorder.sampled(g.depth),
                                              .normals = recorder.sampled(g.normals),
-                                             .cones = knobs.cones,
-                                             .cells = knobs.cells,
-                                             .rays = 0,
-                                             .tolerance = knobs.epsilon,
-                                             .pixelScale = static_cast<int>(lit.scale),
-                                             .litWidth = lit.extent.x,
-                                             .litHeight = lit.extent.y},
-                          lit.extent, {shader::kAreaGroupWidth, shader::kAreaGroupHeight});
+                                             .cones = knobs.sdf.cones,
+                                             .cells = knobs.sdf.cells,
+                                             .rays = raysOf(knobs),
+                                             .tolerance = knobs.sdf.epsilon,
+                                             .pixelScale = static_cast<int>(frame.pixels.scale),
+                                             .litWidth = frame.pixels.extent.x,
+                                             .litHeight = frame.pixels.extent.y},
+                          frame.pixels.extent, {shader::kAreaGroupWidth, shader::kAreaGroupHeight});
     });
     return seen;
 }

@@ -1,5 +1,6 @@
 // Shadows that signed distance fields cast in the light of area lights, by cones (Ban, Balint, Valasek 2020, as corrected in
-// methods/sdf-cones.md). The approximation: a light's share past the fields and its share past all else are taken for independent.
+// methods/sdf-cones.md): towards spheres, or towards cells of what has an outline. The approximation: a light's share past the fields and
+// its share past all else are taken for independent.
 #pragma once
 
 #include "render/fields.h"
@@ -14,15 +15,18 @@ class FieldShadowSystem
 public:
     explicit FieldShadowSystem(gpu::Device& device) : device_(&device) {}
 
-    /// float[lightCount][pixels], the share of each light of the AreaBlock at `area` that is seen; absent without fields.
-    graph::BufferRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const FieldFrame& fields, const GBuffer& g,
-                             VkDeviceAddress area, uint32_t lightCount, const LitPixels& lit, graph::BufferRef& counters);
+    /// float[lights][pixels], the share of each light of the frame's AreaBlock that is seen; absent without fields, and where rays find all
+    /// of it.
+    graph::BufferRef declare(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
+                             std::span<const AreaLightRange> ranges, graph::BufferRef& counters);
     /// Without area lights.
     static void skip(graph::FrameGraph& graph, std::string_view reason);
 
 private:
+    const gpu::Pipeline& pipelineFor(uint32_t method, bool hasOutlines);
+
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 5> pipelines_; // by the shader's METHOD, made when first asked for
+    std::array<gpu::Pipeline, 10> pipelines_; // by the shader's METHOD and whether lights have outlines, made when first asked for
 };
 
 } // namespace antumbra::render

@@ -1,0 +1,59 @@
+#include "render/field_order.h"
+
+#include "base/bounds.h"
+#include "render/field_steps.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace antumbra::render {
+
+namespace {
+
+using shader::FieldStepBlock;
+
+/// A step that changes places with others like it.
+bool isFree(const FieldStepBlock& step)
+{
+    return step.operation == shader::kFieldUnion && (step.flags & shader::kFieldBegins) == 0 && step.shape != shader::kFieldPlane;
+}
+
+} // namespace
+
+/// Until no part is larger than a group; parts are whole groups but for the last.
+void FieldOrder::halve(std::span<uint32_t> indices)
+{
+    if (indices.size() <= shader::kFieldGroupSteps)
+        return;
+    Aabb box;
+    for (const uint32_t index : indices)
+        box.add(centres_[index]);
+    const vec3 extent = box.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    std::ranges::sort(indices, [&](uint32_t a, uint32_t b) {
+        return centres_[a][axis] != centres_[b][axis] ? centres_[a][axis] < centres_[b][axis] : a < b;
+    });
+    const size_t groups = (indices.size() + shader::kFieldGroupSteps - 1) / shader::kFieldGroupSteps;
+    const size_t first = (groups + 1) / 2 * shader::kFieldGroupSteps;
+    halve(indices.first(first));
+    halve(indices.subspan(first));
+}
+
+std::span<const uint32_t> FieldOrder::of(std::span<const FieldStepBlock> steps)
+{
+    order_.resize(steps.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    centres_.clear();
+    for (const FieldStepBlock& step : steps)
+        centres_.push_back(boundOf(step).centre);
+    for (size_t first = 0; first < steps.size();) {
+        size_t end = first;
+        while (end < steps.size() && isFree(steps[end]))
+            ++end;
+        halve(std::span(order_).subspan(first, end - first));
+        first = std::max(end, first + 1);
+    }
+    return order_;
+}
+
+} // namespace antumbra::render

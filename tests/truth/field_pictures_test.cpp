@@ -1,0 +1,147 @@
+// Distance fields in scenes: their shadows together with those of meshes against rays that meet both, and what is not called for.
+#include "truth/shown.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace antumbra::truth {
+namespace {
+
+using render::Aov;
+using testing::Contains;
+using testing::Not;
+
+struct FieldPicture
+{
+    const char* scene;
+    double error; // of the mean irradiance
+};
+
+void PrintTo(const FieldPicture& picture, std::ostream* out) { *out << picture.scene; }
+
+class FieldPictures : public DeviceTest
+{
+protected:
+    static scene::ImageF truthOf(Shown& shown, uint32_t samples)
+    {
+        shown.set("area.shadow", "reference");
+        shown.set("reference.samples", std::to_string(samples));
+        do
+            shown.draw();
+        while (shown.renderer().referenceSamples().value() < samples);
+        scene::ImageF mean = shown.capture(Aov::Irradiance);
+        shown.set("area.shadow", "analytic");
+        return mean;
+    }
+
+    static scene::ImageF irradianceBy(Shown& shown, const char* shadow)
+    {
+        shown.set("sdf.shadow", shadow);
+        return shown.capture(Aov::Irradiance);
+    }
+
+    static void expectSound(Shown& shown)
+    {
+        const shader::CounterBlock counters = shown.counters();
+        EXPECT_EQ(counters.nanPixels + counters.infPixels + counters.negativePixels, 0u);
+    }
+
+    static scene::SceneEntity ball(vec3 position, float radius)
+    {
+        scene::SceneEntity entity;
+        entity.transform.position = position;
+        entity.sdfPrimitive = scene::SDFPrimitive{.shape = scene::SDFShape::Sphere, .radius = radius};
+        return entity;
+    }
+};
+
+class FieldPicturesOf : public FieldPictures, public testing::WithParamInterface<FieldPicture>
+{
+};
+
+TEST_P(FieldPicturesOf, SubConesAreNearTheTruth)
+{
+    Shown shown(device(), namedScene(GetParam().scene), Shown::kExtent);
+    shown.set("area.scale", "1");
+    const std::vector<size_t> surface = surfaceOf(shown.capture(Aov::Depth));
+    const scene::ImageF truth = truthOf(shown, 128);
+    const double light = meanOf(truth, surface);
+    const double none = rmse(irradianceBy(shown, "none"), truth, surface), aaltonen = rmse(irradianceBy(shown, "aaltonen"), truth, surface),
+                 cones = rmse(irradianceBy(shown, "sub-cones"), truth, surface);
+    RecordProperty("none", std::to_string(none / light));
+    RecordProperty("aaltonen", std::to_string(aaltonen / light));
+    RecordProperty("cones", std::to_string(cones / light));
+    EXPECT_LT(cones, GetParam().error * light);
+    EXPECT_LT(cones, 0.7 * aaltonen);
+    EXPECT_GT(none, 2.5 * GetParam().error * light) << "there is next to no shadow to get wrong";
+    shown.set("area.rays", "64");
+    EXPECT_LT(rmse(irradianceBy(shown, "traced"), truth, surface), GetParam().error * light);
+    expectSound(shown);
+}
+
+INSTANTIATE_TEST_SUITE_P(Truth, FieldPicturesOf,
+                         testing::Values(FieldPicture{"garden", 0.08}, FieldPicture{"csg", 0.1}, FieldPicture{"clay", 0.05}),
+                         [](const auto& test) { return std::string(test.param.scene); });
+
+// A field's shadow and a mesh's are taken for independent: exact where one of them hides all or nothing.
+TEST_F(FieldPictures, RaysMeetMeshesAndFields)
+{
+    scene::SceneFile open = darkScene();
+    open.entities.push_back(lampAt({0, 1.5f, 0}));
+    scene::SceneFile mesh = open, field = open, both = open;
+    mesh.entities.push_back(blocker({-0.4f, 0.5f, 0}, vec3(0.3f)));
+    field.entities.push_back(ball({0.4f, 0.5f, 0}, 0.18f));
+    both.entities.push_back(mesh.entities.back());
+    both.entities.push_back(field.entities.back());
+    const auto litBy = [](gpu::Device& on, const scene::SceneFile& scene) {
+        Shown shown(on, scene);
+        const std::vector<size_t> surface = surfaceOf(shown.capture(Aov::Depth));
+        return meanOf(truthOf(shown, 256), surface);
+    };
+    const double all = litBy(device(), open), pastMesh = litBy(device(), mesh), pastField = litBy(device(), field),
+                 pastBoth = litBy(device(), both);
+    EXPECT_LT(pastMesh, 0.99 * all);
+    EXPECT_LT(pastField, 0.99 * all);
+    EXPECT_LT(pastBoth, std::min(pastMesh, pastField));
+}
+
+TEST_F(FieldPictures, WhereNothingAsksForFieldsNothingIsThere)
+{
+    scene::SceneFile scene = darkScene();
+    scene.entities.push_back(lampAt({0, 1, 0}));
+    Shown without(device(), scene);
+    without.draw();
+    EXPECT_THAT(stepsOf(without), Not(Contains("sdf shadow")));
+    scene.entities.push_back(ball({0, 0.4f, 0}, 0.2f));
+    Shown with(device(), scene);
+    with.draw();
+    EXPECT_THAT(stepsOf(with), Contains("sdf shadow"));
+    for (const auto& [key, value] : {std::pair("sdf.shadow", "none"), std::pair("area.shadow", "traced")}) {
+        Shown off(device(), scene);
+        off.set(key, value);
+        off.draw();
+        EXPECT_THAT(stepsOf(off), Not(Contains("sdf shadow"))) << key;
+    }
+}
+
+TEST_F(FieldPictures, MovingFieldsTakeNoMemory)
+{
+    Shown shown(device(), namedScene("garden"));
+    shown.set("area.scale", "1/4");
+    const auto move = [&] {
+        for (render::FieldStepDraw& step : shown.view().fieldSteps)
+            step.step.localFromWorld[1].w += 0.003f;
+        shown.draw();
+    };
+    for (int i = 0; i < 6; ++i)
+        move();
+    const uint64_t before = shown.renderer().memory().allocationsEver;
+    for (int i = 0; i < 10; ++i)
+        move();
+    EXPECT_EQ(shown.renderer().memory().allocationsEver, before);
+    expectSound(shown);
+}
+
+} // namespace
+} // namespace antumbra::truth
