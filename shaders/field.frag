@@ -12,6 +12,9 @@
 // KEEPS_MATERIAL; KEEPS_STEPS where the steps of the way are asked for.
 layout(push_constant, scalar) uniform Push { FieldDraw pc; };
 
+layout(location = 0) flat in vec2 inWay; // as field.vert has them
+layout(location = 1) flat in uint inSkipped;
+
 layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
 layout(location = 1) out vec4 outAlbedo; // a: 1 for what moves
 layout(location = 2) out vec4 outUnshadowed; // W/m^2; a: roughness
@@ -26,25 +29,16 @@ layout(location = 3) out vec4 outSteps;
 #endif
 #endif
 
-// Where a ray is in the box; nowhere if its end comes before its beginning.
-vec2 wayInBox(vec3 origin, vec3 direction, vec3 lowest, vec3 highest)
-{
-    vec3 safe = mix(direction, vec3(1.0e-20), lessThan(abs(direction), vec3(1.0e-20)));
-    vec3 a = (lowest - origin) / safe, b = (highest - origin) / safe;
-    vec3 entries = min(a, b), exits = max(a, b);
-    return vec2(max(max(entries.x, entries.y), entries.z), min(min(exits.x, exits.y), exits.z));
-}
-
 void main()
 {
     vec3 ray = fromEye(frameBlock, gl_FragCoord.xy, 1.0);
     float metresADepth = length(ray);
     vec3 direction = ray / metresADepth;
-    vec2 way = wayInBox(frameBlock.eye, direction, pc.lowest, pc.highest);
-    way.x = max(way.x, frameBlock.near * metresADepth);
+    vec2 way = vec2(max(inWay.x, frameBlock.near * metresADepth), inWay.y);
     float pixel = length(frameBlock.rayX) / metresADepth; // metres a metre of the way
-    FieldsBlock fields = fieldsAlong(pc.fields, frameBlock.eye, direction, pixel, way);
-    FieldHit hit = traceField(fields, frameBlock.eye, direction, way.x, way.y, 0.1 * pixel);
+    FieldsBlock fields = pc.fields;
+    fields.skipped = inSkipped;
+    FieldHit hit = traceField(fields, frameBlock.eye, direction, way.x, way.y, 0.3 * pixel);
     bool isHit = hit.at > 0.0;
     vec3 position = frameBlock.eye + direction * max(hit.at, 0.0);
     vec3 normal = fieldNormal(fields, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5, isHit);

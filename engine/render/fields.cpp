@@ -7,25 +7,6 @@
 
 namespace antumbra::render {
 
-namespace {
-
-constexpr float kFarthestSeen = 1e4f; // metres from the eye, of what has no end
-
-/// A box about what the step adds; an empty one where it only takes away.
-void addBox(FieldFrame& fields, const shader::FieldStepBlock& step, vec3 eye)
-{
-    if (step.operation == shader::kFieldSubtract || step.operation == shader::kFieldIntersect)
-        return;
-    const FieldBound bound = boundOf(step);
-    const bool isBounded = bound.radius < kFieldUnbounded;
-    const vec3 centre = isBounded ? bound.centre : eye;
-    const vec3 reach(isBounded ? bound.radius + step.blend : kFarthestSeen);
-    fields.lowest = glm::min(fields.lowest, centre - reach);
-    fields.highest = glm::max(fields.highest, centre + reach);
-}
-
-} // namespace
-
 FieldFrame Fields::write(const FrameView& view)
 {
     if (view.fieldSteps.empty())
@@ -33,22 +14,18 @@ FieldFrame Fields::write(const FrameView& view)
     listed_.clear();
     steps_.clear();
     surfaces_.clear();
-    FieldFrame fields{.lowest = vec3(1e30f), .highest = vec3(-1e30f)};
-    for (const FieldStepDraw& draw : view.fieldSteps) {
+    for (const FieldStepDraw& draw : view.fieldSteps)
         listed_.push_back(draw.step);
-        addBox(fields, draw.step, view.camera.eye);
-    }
     for (const uint32_t index : order_.of(listed_)) {
         steps_.push_back(listed_[index]);
         surfaces_.push_back(view.fieldSteps[index].surface);
     }
     writeGroups(steps_, groups_);
-    fields.block = {.steps = frameCopy(*device_, steps_),
-                    .groups = frameCopy(*device_, groups_),
-                    .surfaces = frameCopy(*device_, surfaces_),
-                    .groupCount = static_cast<uint32_t>(groups_.size()),
-                    .skipped = 0};
-    return fields;
+    return {.block = {.steps = frameCopy(*device_, steps_),
+                      .groups = frameCopy(*device_, groups_),
+                      .surfaces = frameCopy(*device_, surfaces_),
+                      .groupCount = static_cast<uint32_t>(groups_.size()),
+                      .skipped = 0}};
 }
 
 const gpu::Pipeline& Fields::pipelineFor(const Look& look)
@@ -66,7 +43,7 @@ const gpu::Pipeline& Fields::pipelineFor(const Look& look)
     if (look.keepsSteps)
         defines.push_back({"KEEPS_STEPS"});
     pipelines_.push_back({look.firstTerm, look.keepsMaterial, look.keepsSteps,
-                          rasterPipeline(*device_, {.vertexShader = "sky.vert",
+                          rasterPipeline(*device_, {.vertexShader = "field.vert",
                                                     .fragmentShader = "field.frag",
                                                     .defines = defines,
                                                     .colorFormats = look.colorFormats,
@@ -74,10 +51,10 @@ const gpu::Pipeline& Fields::pipelineFor(const Look& look)
     return pipelines_.back().pipeline;
 }
 
-void Fields::draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame)
+void Fields::draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame, uvec2 extent)
 {
-    recorder.draw(pipeline, shader::FieldDraw{.fields = fields.block, .lowest = fields.lowest, .highest = fields.highest, .frame = frame},
-                  3);
+    const uvec2 tiles = (extent + shader::kFieldTileSize - 1u) / shader::kFieldTileSize;
+    recorder.draw(pipeline, shader::FieldDraw{.fields = fields.block, .frame = frame, .extent = ivec2(extent)}, 6 * tiles.x * tiles.y);
 }
 
 } // namespace antumbra::render

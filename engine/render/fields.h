@@ -16,8 +16,6 @@ namespace antumbra::render {
 struct FieldFrame
 {
     shader::FieldsBlock block{};
-    vec3 lowest{0}; // of a box about all that is solid; world
-    vec3 highest{0};
 
     explicit operator bool() const { return block.groupCount > 0; }
 };
@@ -41,7 +39,7 @@ public:
     };
     /// Made when first asked for.
     const gpu::Pipeline& pipelineFor(const Look& look);
-    static void draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame);
+    static void draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame, uvec2 extent);
 
 private:
     struct Made

@@ -158,9 +158,9 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
         g.steps = create("steps", kStepsFormat);
     const gpu::Pipeline* fieldPipeline = fields ? &this->fieldPipeline(view, keepsSteps) : nullptr;
 
-    pass.record([this, &view, &scene, frame, fields, fieldPipeline](graph::Recorder& recorder) {
+    pass.record([this, &view, &scene, frame, fields, fieldPipeline, extent](graph::Recorder& recorder) {
         if (fieldPipeline != nullptr) // first: what they hide is not shaded
-            Fields::draw(recorder, *fieldPipeline, fields, frame);
+            Fields::draw(recorder, *fieldPipeline, fields, frame, extent);
         const auto draw = [&](const Draw& each, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,
                               const gpu::Buffer& normals, uint32_t flags) {
             const Cluster& triangles = model.clusters[each.cluster];

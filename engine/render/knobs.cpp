@@ -250,6 +250,8 @@ Knobs defaultKnobs(DeviceClass device)
         knobs.occlusion.scale = Scale::Quarter;
         knobs.area.scale = Scale::Quarter;
         knobs.area.pieces = 24;
+        knobs.sdf.cones = 4;
+        knobs.sdf.cells = 4;
     }
     return knobs;
 }

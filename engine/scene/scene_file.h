@@ -72,7 +72,7 @@ struct SceneFile
 };
 
 /// The most copies that one "repeat" makes.
-inline constexpr int32_t kGreatestRepeat = 200;
+inline constexpr int32_t kGreatestRepeat = 256;
 
 /// Paths in the file are relative to it, those returned are not. `overrides` come after the scene's settings and can size a crowd and
 /// choose what there is: "only_if":{"KEY OF A SETTING":"VALUE"} on an entity leaves it out where the setting has another value, and

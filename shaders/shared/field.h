@@ -61,13 +61,15 @@ struct FieldSurfaceBlock
     float specular;
 };
 
+const uint kFieldTileSize = 16u; // pixels along each side of a square that is drawn
+const float kFieldFarthestSeen = 1.0e4; // metres from the eye, of what has no end
+
 // What the camera sees of all fields: push constants.
 struct FieldDraw
 {
     FieldsBlock fields;
-    vec3 lowest; // of a box about all of it; world
-    vec3 highest;
     uint frame; // slot of a FrameBlock
+    ivec2 extent; // pixels
 };
 
 const uint kFieldQuilez = 0u;

@@ -347,9 +347,8 @@ void echo(FieldSurfaceBlock b)
 void echo(FieldDraw b)
 {
     put(b.fields);
-    put(b.lowest);
-    put(b.highest);
     put(b.frame);
+    put(b.extent);
 }
 
 #elif defined(FIELD_SHADE)

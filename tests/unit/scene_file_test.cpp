@@ -197,8 +197,8 @@ TEST(SceneFile, OverridesSizeACrowd)
     EXPECT_EQ(load(kCrowd, {{"crowd.count", "200"}}).entities.size(), 200u);
     EXPECT_EQ(load(kCrowd, {{"crowd.count", "7"}, {"crowd.count", "1"}}).entities.size(), 1u);
     EXPECT_TRUE(load(kCrowd, {{"crowd.count", "0"}}).entities.empty());
-    for (const char* wrong : {"-1", "201", "-3", "ten", "", "10.5", "99999999999"})
-        expectFault(faultOf(kCrowd, {{"crowd.count", wrong}}), {"entities[0].repeat.count", "crowd.count", "0 to 200"});
+    for (const char* wrong : {"-1", "257", "-3", "ten", "", "10.5", "99999999999"})
+        expectFault(faultOf(kCrowd, {{"crowd.count", wrong}}), {"entities[0].repeat.count", "crowd.count", "0 to 256"});
     expectFault(faultOfEntity(R"({"repeat": {"count": "crowd.size"}})"), {"crowd.size"});
 }
 
