@@ -70,7 +70,8 @@ std::vector<uint32_t> compileShader(std::string_view file, std::span<const Shade
     const std::string name(file);
     std::string preamble;
     for (const ShaderDefine& define : defines)
-        preamble += fmt::format("#define {} {}\n", define.name, define.value);
+        preamble += define.text.empty() ? fmt::format("#define {} {}\n", define.name, define.value)
+                                        : fmt::format("#define {} {}\n", define.name, define.text);
 
     const EShLanguage stage = stageOf(file);
     glslang::TShader shader(stage);

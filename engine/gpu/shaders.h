@@ -11,11 +11,12 @@
 
 namespace antumbra::gpu {
 
-/// `name` is defined as `value` before the first line.
+/// `name` is defined as `value` before the first line, or as `text`, which is one line, where there is any.
 struct ShaderDefine
 {
     std::string_view name;
     int value = 1;
+    std::string_view text = {};
 };
 
 /// Compiles shaders/`file` (.comp, .vert, .frag) for Vulkan 1.3. Throws Error with glslang's first message, which names the line.

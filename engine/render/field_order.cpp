@@ -39,7 +39,7 @@ void FieldOrder::halve(std::span<uint32_t> indices)
     halve(indices.subspan(first));
 }
 
-std::span<const uint32_t> FieldOrder::of(std::span<const FieldStepBlock> steps)
+void FieldOrder::find(std::span<const FieldStepBlock> steps)
 {
     order_.resize(steps.size());
     std::iota(order_.begin(), order_.end(), 0u);
@@ -52,6 +52,17 @@ std::span<const uint32_t> FieldOrder::of(std::span<const FieldStepBlock> steps)
             ++end;
         halve(std::span(order_).subspan(first, end - first));
         first = std::max(end, first + 1);
+    }
+}
+
+std::span<const uint32_t> FieldOrder::of(std::span<const FieldStepBlock> steps)
+{
+    kindsNow_.clear();
+    for (const FieldStepBlock& step : steps)
+        kindsNow_.push_back({step.shape, step.operation, step.flags});
+    if (kindsNow_ != kinds_) {
+        kinds_ = kindsNow_;
+        find(steps);
     }
     return order_;
 }

@@ -1,6 +1,7 @@
 #include "render/fields.h"
 
 #include "render/field_steps.h"
+#include "render/field_structure.h"
 #include "render/frame_copy.h"
 
 #include <algorithm>
@@ -21,17 +22,20 @@ FieldFrame Fields::write(const FrameView& view)
         surfaces_.push_back(view.fieldSteps[index].surface);
     }
     writeGroups(steps_, groups_);
+    writeStructure(steps_, structure_);
     return {.block = {.steps = frameCopy(*device_, steps_),
                       .groups = frameCopy(*device_, groups_),
                       .surfaces = frameCopy(*device_, surfaces_),
                       .groupCount = static_cast<uint32_t>(groups_.size()),
-                      .skipped = 0}};
+                      .skipped = 0},
+            .structure = structure_};
 }
 
 const gpu::Pipeline& Fields::pipelineFor(const Look& look)
 {
     const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
-        return made.firstTerm == look.firstTerm && made.keepsMaterial == look.keepsMaterial && made.keepsSteps == look.keepsSteps;
+        return made.structure == structure_ && made.firstTerm == look.firstTerm && made.keepsMaterial == look.keepsMaterial &&
+               made.keepsSteps == look.keepsSteps;
     });
     if (found != pipelines_.end())
         return found->pipeline;
@@ -42,7 +46,9 @@ const gpu::Pipeline& Fields::pipelineFor(const Look& look)
         defines.push_back({"KEEPS_MATERIAL"});
     if (look.keepsSteps)
         defines.push_back({"KEEPS_STEPS"});
-    pipelines_.push_back({look.firstTerm, look.keepsMaterial, look.keepsSteps,
+    if (!structure_.empty())
+        defines.push_back({.name = "FIELD_STRUCTURE", .text = structure_});
+    pipelines_.push_back({structure_, look.firstTerm, look.keepsMaterial, look.keepsSteps,
                           rasterPipeline(*device_, {.vertexShader = "field.vert",
                                                     .fragmentShader = "field.frag",
                                                     .defines = defines,

@@ -16,6 +16,7 @@ namespace antumbra::render {
 struct FieldFrame
 {
     shader::FieldsBlock block{};
+    std::string_view structure; // a define of what evaluates them; empty: it walks through the steps. As long as its Fields write no other
 
     explicit operator bool() const { return block.groupCount > 0; }
 };
@@ -44,6 +45,7 @@ public:
 private:
     struct Made
     {
+        std::string structure;
         std::string_view firstTerm;
         bool keepsMaterial;
         bool keepsSteps;
@@ -55,6 +57,7 @@ private:
     std::vector<shader::FieldStepBlock> listed_, steps_; // as the scene lists them, and in order
     std::vector<shader::FieldSurfaceBlock> surfaces_;
     std::vector<shader::FieldGroupBlock> groups_;
+    std::string structure_;
     std::deque<Made> pipelines_;
 };
 

@@ -1,6 +1,7 @@
 // Signed distance to solids that are put together step by step (Hart 1996; golden/README.md, sdf.json). Nowhere does the distance change
 // faster than one looks for it: shapes are exact in their own space and scaled by the least of their stretches, and no operation adds to the
-// slope. So a ball of that radius is always clear, and what steps by it never goes through anything.
+// slope. So a ball of that radius is always clear, and what steps by it never goes through anything. FIELD_STRUCTURE, where it is defined, is
+// the walk through the steps written out (render/field_structure.h).
 #ifndef LIB_FIELD_GLSL
 #define LIB_FIELD_GLSL
 
@@ -46,32 +47,41 @@ vec3 fieldLocal(FieldStepBlock s, vec3 p)
                 dot(s.localFromWorld[2].xyz, p) + s.localFromWorld[2].w);
 }
 
+float segmentStep(FieldStepBlock s, vec3 p) { return s.scale * segmentDistance(fieldLocal(s, p), s.size.x, s.size.y); }
+float boxStep(FieldStepBlock s, vec3 p) { return s.scale * boxDistance(fieldLocal(s, p), s.size.xyz, s.size.w); }
+float torusStep(FieldStepBlock s, vec3 p) { return s.scale * torusDistance(fieldLocal(s, p), s.size.x, s.size.y); }
+float coneStep(FieldStepBlock s, vec3 p) { return s.scale * coneDistance(fieldLocal(s, p), s.size.x, s.size.y, s.size.z); }
+float planeStep(FieldStepBlock s, vec3 p) { return s.scale * fieldLocal(s, p).y; }
+
 float fieldShape(FieldStepBlock s, vec3 p)
 {
-    vec3 local = fieldLocal(s, p);
     switch (s.shape) {
-    case kFieldSegment: return s.scale * segmentDistance(local, s.size.x, s.size.y);
-    case kFieldBox: return s.scale * boxDistance(local, s.size.xyz, s.size.w);
-    case kFieldTorus: return s.scale * torusDistance(local, s.size.x, s.size.y);
-    case kFieldCone: return s.scale * coneDistance(local, s.size.x, s.size.y, s.size.z);
-    default: return s.scale * local.y;
+    case kFieldSegment: return segmentStep(s, p);
+    case kFieldBox: return boxStep(s, p);
+    case kFieldTorus: return torusStep(s, p);
+    case kFieldCone: return coneStep(s, p);
+    default: return planeStep(s, p);
     }
 }
 
+float unionOf(float before, float own, float blend) { return min(before, own); }
+float differenceOf(float before, float own, float blend) { return max(before, -own); }
+float intersectionOf(float before, float own, float blend) { return max(before, own); }
+
 // The quadratic smooth minimum: it melts where the distances differ by less than `blend`.
-float smoothUnion(float a, float b, float blend)
+float smoothUnionOf(float before, float own, float blend)
 {
-    float h = max(blend - abs(a - b), 0.0);
-    return min(a, b) - h * h / (4.0 * max(blend, 1.0e-9));
+    float h = max(blend - abs(before - own), 0.0);
+    return min(before, own) - h * h / (4.0 * max(blend, 1.0e-9));
 }
 
 float fieldCombined(FieldStepBlock s, float before, float own)
 {
     switch (s.operation) {
-    case kFieldUnion: return min(before, own);
-    case kFieldSubtract: return max(before, -own);
-    case kFieldIntersect: return max(before, own);
-    default: return smoothUnion(before, own, s.blend);
+    case kFieldUnion: return unionOf(before, own, s.blend);
+    case kFieldSubtract: return differenceOf(before, own, s.blend);
+    case kFieldIntersect: return intersectionOf(before, own, s.blend);
+    default: return smoothUnionOf(before, own, s.blend);
     }
 }
 
@@ -83,14 +93,22 @@ bool isLookedAt(FieldsBlock fields, uint g) { return (fields.skipped >> (g & 31u
 // Whether steps of the group can change the distance so far.
 bool mattersAt(FieldGroupBlock group, vec3 p, float so) { return group.slope * distance(p, group.centre) - group.reach < abs(so); }
 
-// Of all fields together, and of the groups that are looked at. Groups that do not matter are loops that go round for nobody, which is
-// what spares CPU devices the work.
+// Of all fields together; the walk through the steps passes by groups that are not looked at or do not matter: loops that go round for nobody,
+// which is what spares CPU devices the work. Written out, all steps are worked off: what they read is read once for all evaluations, which is
+// faster than to pass by any.
 float fieldDistance(FieldsBlock fields, vec3 p)
 {
     ++fieldEvaluations;
     float whole = kFieldFar, so = kFieldFar;
     FieldSteps steps = FieldSteps(fields.steps);
     FieldGroups groups = FieldGroups(fields.groups);
+#ifdef FIELD_STRUCTURE
+#define FIELD_BEGINS whole = min(whole, so); so = kFieldFar;
+#define FIELD_STEP(i, operation, share, distance) so = operation(so, distance(steps.step[i], p), steps.step[i].blend);
+    FIELD_STRUCTURE
+#undef FIELD_BEGINS
+#undef FIELD_STEP
+#else
     for (uint g = 0u; g < fields.groupCount; ++g) {
         FieldGroupBlock group = groups.group[g];
         uint first = group.firstStep, end = group.endStep;
@@ -101,6 +119,7 @@ float fieldDistance(FieldsBlock fields, vec3 p)
         for (uint i = first; i < end; ++i)
             so = fieldCombined(steps.step[i], so, fieldShape(steps.step[i], p));
     }
+#endif
     return min(whole, so);
 }
 

@@ -73,13 +73,21 @@ FieldSurfaceBlock mixedSurface(FieldSurfaceBlock a, FieldSurfaceBlock b, float s
 }
 
 // How much of a step's own surface shows where the distances are these; melted ones change over as the distance does.
+float unionShare(float before, float own, float blend) { return own < before ? 1.0 : 0.0; }
+float differenceShare(float before, float own, float blend) { return -own > before ? 1.0 : 0.0; }
+float intersectionShare(float before, float own, float blend) { return own > before ? 1.0 : 0.0; }
+float smoothUnionShare(float before, float own, float blend)
+{
+    return clamp(0.5 + (before - own) / (2.0 * max(blend, 1.0e-9)), 0.0, 1.0);
+}
+
 float ownShare(FieldStepBlock s, float before, float own)
 {
     switch (s.operation) {
-    case kFieldUnion: return own < before ? 1.0 : 0.0;
-    case kFieldSubtract: return -own > before ? 1.0 : 0.0;
-    case kFieldIntersect: return own > before ? 1.0 : 0.0;
-    default: return clamp(0.5 + (before - own) / (2.0 * max(s.blend, 1.0e-9)), 0.0, 1.0);
+    case kFieldUnion: return unionShare(before, own, s.blend);
+    case kFieldSubtract: return differenceShare(before, own, s.blend);
+    case kFieldIntersect: return intersectionShare(before, own, s.blend);
+    default: return smoothUnionShare(before, own, s.blend);
     }
 }
 
@@ -87,8 +95,19 @@ float ownShare(FieldStepBlock s, float before, float own)
 FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
 {
     FieldSurfaceBlock none = FieldSurfaceBlock(vec3(0.0), 1.0, 0.0, 0.0), shown = none, made = none;
-    float whole = kFieldFar, so = kFieldFar;
+    float whole = kFieldFar, so = kFieldFar, own;
     FieldSteps steps = FieldSteps(fields.steps);
+    FieldSurfaces surfaces = FieldSurfaces(fields.surfaces);
+#ifdef FIELD_STRUCTURE
+#define FIELD_BEGINS shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0); whole = min(whole, so); so = kFieldFar;
+#define FIELD_STEP(i, operation, share, distance) \
+    own = distance(steps.step[i], p); \
+    made = mixedSurface(made, surfaces.surface[i], share(so, own, steps.step[i].blend)); \
+    so = operation(so, own, steps.step[i].blend);
+    FIELD_STRUCTURE
+#undef FIELD_BEGINS
+#undef FIELD_STEP
+#else
     uint groupCount = isWanted ? fields.groupCount : 0u;
     for (uint g = 0u; g < groupCount; ++g) {
         FieldGroupBlock group = FieldGroups(fields.groups).group[g];
@@ -101,11 +120,12 @@ FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
         end = isLookedAt(fields, g) && mattersAt(group, p, so) ? end : first;
         for (uint i = first; i < end; ++i) {
             FieldStepBlock s = steps.step[i];
-            float own = fieldShape(s, p);
-            made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], ownShare(s, so, own));
+            own = fieldShape(s, p);
+            made = mixedSurface(made, surfaces.surface[i], ownShare(s, so, own));
             so = fieldCombined(s, so, own);
         }
     }
+#endif
     return mixedSurface(shown, made, so < whole ? 1.0 : 0.0);
 }
 

@@ -1,4 +1,5 @@
 // Distance fields in scenes: their shadows together with those of meshes against rays that meet both, and what is not called for.
+#include "render/field_structure.h"
 #include "truth/shown.h"
 
 #include <gmock/gmock.h>
@@ -104,6 +105,26 @@ TEST_F(FieldPictures, RaysMeetMeshesAndFields)
     EXPECT_LT(pastMesh, 0.99 * all);
     EXPECT_LT(pastField, 0.99 * all);
     EXPECT_LT(pastBoth, std::min(pastMesh, pastField));
+}
+
+// Few steps are written out for the compiler, many are walked through (render/field_structure.h).
+TEST_F(FieldPictures, WrittenOutAndWalkedThroughFieldsAreTheSame)
+{
+    const scene::SceneFile written = namedScene("garden");
+    scene::SceneFile walked = written;
+    for (size_t i = 0; i <= render::kMostWrittenSteps; ++i) {
+        walked.entities.push_back(ball({0, -60, 0}, 0.1f)); // out of sight
+        walked.entities.back().sdfPrimitive->field = 1;
+    }
+    const auto shownBy = [](gpu::Device& on, const scene::SceneFile& scene) {
+        Shown shown(on, scene);
+        return std::pair(shown.capture(Aov::Irradiance), shown.capture(Aov::Depth));
+    };
+    const auto [lit, depth] = shownBy(device(), written);
+    const auto [litWalked, depthWalked] = shownBy(device(), walked);
+    const std::vector<size_t> surface = surfaceOf(depth);
+    EXPECT_EQ(surfaceOf(depthWalked), surface);
+    EXPECT_LT(rmse(litWalked, lit, surface), 0.01 * meanOf(lit, surface));
 }
 
 TEST_F(FieldPictures, WhereNothingAsksForFieldsNothingIsThere)

@@ -2,6 +2,7 @@
 // hold.
 #include "render/field_order.h"
 #include "render/field_steps.h"
+#include "render/field_structure.h"
 
 #include "tests/gpu/random_fields.h"
 
@@ -165,6 +166,47 @@ TEST(FieldSteps, PlainUnionsInARowMayChangePlaces)
             EXPECT_EQ(fieldDistance(ordered, point), fieldDistance(field, point)) << i;
         }
     }
+}
+
+TEST(FieldSteps, PlacesAreKeptAsThingsMove)
+{
+    RandomInputs random(7);
+    std::vector<SDFPrimitive> balls;
+    for (int i = 0; i < 40; ++i)
+        balls.push_back({.shape = SDFShape::Sphere, .centre = vec3(random.direction() * random.uniform(0, 10)), .radius = 0.1f});
+    render::FieldOrder order;
+    const auto of = [&](const FieldSteps& field) {
+        const std::span<const uint32_t> found = order.of(field);
+        return std::vector<uint32_t>(found.begin(), found.end());
+    };
+    const std::vector<uint32_t> first = of(fieldOf(balls));
+    for (SDFPrimitive& ball : balls)
+        ball.centre = vec3(random.direction() * random.uniform(0, 10));
+    EXPECT_EQ(of(fieldOf(balls)), first);
+    balls.pop_back();
+    EXPECT_EQ(of(fieldOf(balls)).size(), balls.size());
+}
+
+TEST(FieldSteps, TheStructureIsThatOfShapesAndOperations)
+{
+    const SDFPrimitive box{.shape = SDFShape::Box, .halfExtent = {1, 1, 1}};
+    SDFPrimitive ball{.shape = SDFShape::Sphere, .radius = 1, .operation = SDFOperation::Subtract};
+    const auto structure = [&] {
+        std::string text;
+        render::writeStructure(fieldOf({box, ball}), text);
+        return text;
+    };
+    const std::string before = structure();
+    EXPECT_EQ(before,
+              "FIELD_BEGINS FIELD_STEP(0, unionOf, unionShare, boxStep) FIELD_STEP(1, differenceOf, differenceShare, segmentStep) ");
+    ball.radius = 2;
+    ball.centre = {1, 2, 3};
+    EXPECT_EQ(structure(), before);
+    ball.operation = SDFOperation::SmoothUnion;
+    EXPECT_NE(structure(), before);
+    std::string none = "left";
+    render::writeStructure(fieldOf(std::vector(render::kMostWrittenSteps + 1, box)), none);
+    EXPECT_TRUE(none.empty());
 }
 
 TEST(FieldSteps, InOrderGroupsAreSmaller)

@@ -36,16 +36,20 @@ bool findsRays(const AreaLightRange& range) { return range.shadow == LightShadow
 
 void FieldShadowSystem::skip(graph::FrameGraph& graph, std::string_view reason) { graph.skip("sdf shadow", reason); }
 
-const gpu::Pipeline& FieldShadowSystem::pipelineFor(uint32_t method, bool hasOutlines)
+const gpu::Pipeline& FieldShadowSystem::pipelineFor(std::string_view structure, uint32_t method, bool hasOutlines)
 {
-    gpu::Pipeline& pipeline = pipelines_[2 * method + (hasOutlines ? 1 : 0)];
-    if (!pipeline) {
-        std::vector<gpu::ShaderDefine> defines{{"METHOD", static_cast<int>(method)}};
-        if (hasOutlines)
-            defines.push_back({"OUTLINES"});
-        pipeline = computePipeline(*device_, "field_shade.comp", defines);
-    }
-    return pipeline;
+    const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
+        return made.structure == structure && made.method == method && made.hasOutlines == hasOutlines;
+    });
+    if (found != pipelines_.end())
+        return found->pipeline;
+    std::vector<gpu::ShaderDefine> defines{{"METHOD", static_cast<int>(method)}};
+    if (hasOutlines)
+        defines.push_back({"OUTLINES"});
+    if (!structure.empty())
+        defines.push_back({.name = "FIELD_STRUCTURE", .text = structure});
+    pipelines_.push_back({std::string(structure), method, hasOutlines, computePipeline(*device_, "field_shade.comp", defines)});
+    return pipelines_.back().pipeline;
 }
 
 graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
@@ -67,7 +71,7 @@ graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const LitF
     const uint32_t lightCount = ranges.back().end;
     const graph::BufferRef seen =
         pass.createBuffer("seen past fields", lightCount * frame.pixels.count() * sizeof(float), Use::StorageWrite);
-    pass.record([&pipeline = pipelineFor(method, hasOutlines), &knobs, fields, frame, g = *frame.g, seen,
+    pass.record([&pipeline = pipelineFor(fields.structure, method, hasOutlines), &knobs, fields, frame, g = *frame.g, seen,
                  counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::FieldShade{.fields = fields.block,

@@ -6,7 +6,8 @@
 #include "render/fields.h"
 #include "render/shadow/lit_frame.h"
 
-#include <array>
+#include <deque>
+#include <string>
 
 namespace antumbra::render {
 
@@ -23,10 +24,17 @@ public:
     static void skip(graph::FrameGraph& graph, std::string_view reason);
 
 private:
-    const gpu::Pipeline& pipelineFor(uint32_t method, bool hasOutlines);
+    struct Made
+    {
+        std::string structure;
+        uint32_t method; // of the shader
+        bool hasOutlines;
+        gpu::Pipeline pipeline;
+    };
+    const gpu::Pipeline& pipelineFor(std::string_view structure, uint32_t method, bool hasOutlines);
 
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 10> pipelines_; // by the shader's METHOD and whether lights have outlines, made when first asked for
+    std::deque<Made> pipelines_; // each made when first asked for
 };
 
 } // namespace antumbra::render
