@@ -1,6 +1,7 @@
 // Light of area lights that reaches what is seen, past what stands before them. Variants: SHADOW is kAreaUnshadowed (times shares that others
-// found), kAreaAnalytic (KT et al. 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its points anew each frame; GLOSSY
-// reflects by GGX too; COMPUTE_BVH traces without ray queries; FIELDS: rays meet distance fields too; TRIANGLES and sizes as in lib/area.glsl.
+// found), kAreaAnalytic (KT et al. 2021, methods/area-shadows.md) or kAreaTraced (points on the light, a shadow ray each); REFERENCE draws its
+// points anew each frame; GLOSSY reflects by GGX too; COMPUTE_BVH traces without ray queries; FIELDS: rays meet distance fields too; TRIANGLES
+// and sizes as in lib/area.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
