@@ -52,9 +52,6 @@
 layout(buffer_reference, scalar) readonly buffer Areas { AreaBlock block; };
 layout(buffer_reference, scalar) readonly buffer Lights { AreaLightBlock block[]; };
 layout(buffer_reference, scalar) readonly buffer Tiles { AreaTileBlock block[]; };
-#ifdef FIELDS
-layout(buffer_reference, scalar) readonly buffer Fields { FieldsBlock block; };
-#endif
 layout(buffer_reference, scalar) readonly buffer Owners { uint light[]; };
 layout(buffer_reference, scalar) readonly buffer Shares { vec2 value[]; };
 layout(buffer_reference, scalar) readonly buffer Seen { float share[]; };
@@ -81,7 +78,7 @@ bool isHidden(AreaBlock area, LitSurface s, LightSample point)
 {
     bool isHidden = distanceToBlocker(pc.scene, s.position, point.direction, point.before, true) >= 0.0;
 #ifdef FIELDS
-    isHidden = isHidden || fieldBlocks(Fields(area.fields).block, s.position, point.direction, point.before);
+    isHidden = isHidden || distanceToField(Fields(area.fields).block, s.position, point.direction, point.before) >= 0.0;
 #endif
     return isHidden;
 }

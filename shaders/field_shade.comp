@@ -57,7 +57,7 @@ float seenOf(AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
         LightSample point = lightSample(area.arrays, light, s, squareMetres, pointOfSequence(shift, i));
         bool isSeen = point.diffuse > 0.0;
         if (isSeen)
-            isSeen = !fieldBlocks(pc.fields, s.position, point.direction, point.before);
+            isSeen = distanceToField(pc.fields, s.position, point.direction, point.before) < 0.0;
         seen += isSeen ? point.diffuse : 0.0;
         all += point.diffuse;
     }

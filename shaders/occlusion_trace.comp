@@ -1,6 +1,7 @@
 // Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
 // Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; REFERENCE jitters the points anew each frame; COMPUTE_BVH
-// traces without ray queries; LOCAL_LIGHT hides what comes in by the irradiance volume instead of the environment.
+// traces without ray queries; LOCAL_LIGHT hides what comes in by the irradiance volume instead of the environment; FIELDS: distance fields
+// hide light as what moves does, the spheres about their groups of steps for bounds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -20,6 +21,10 @@
 #include "lib/ray_query.glsl"
 #endif
 #include "lib/traced.glsl"
+#ifdef FIELDS
+#include "lib/field.glsl"
+#include "lib/field_ray.glsl"
+#endif
 #ifdef LOCAL_LIGHT
 #include "lib/irradiance_volume.glsl"
 #endif
@@ -74,6 +79,16 @@ vec3 localSample(uint i)
 #endif
 }
 
+// How far off a distance field is that the ray meets; negative where it meets none.
+float fieldAlong(vec3 origin, vec3 direction, float far)
+{
+#ifdef FIELDS
+    return distanceToField(Fields(pc.fields).block, origin, direction, far);
+#else
+    return -1.0;
+#endif
+}
+
 // What a cone can hide at most is a share of the unshadowed irradiance; 0.3 bounds the light's unevenness (methods/conical-culling.md).
 bool isNegligible(Cone cone, vec3 normal) { return 0.3 * greatestShare(cone, normal) < pc.tolerance; }
 
@@ -83,12 +98,13 @@ void traceAll(Receiver r)
 {
     for (uint i = 0u; i < pc.sampleCount; ++i) {
         vec3 direction = r.frame * localSample(i);
-        float hit = dynamicHitFirstOfAll(pc.scene, r.origin, direction);
+        float field = fieldAlong(r.origin, direction, kRayFar);
+        float hit = dynamicHitFirstOfAll(pc.scene, r.origin, direction, field);
         if (hit >= 0.0) {
             addHidden(direction);
             // As culled rays find it, so that the filter does the same whatever was culled.
             if (pc.isFiltered != 0u)
-                blockerDistance = min(blockerDistance, dynamicHitFirst(pc.scene, r.origin, direction, kRayFar));
+                blockerDistance = min(blockerDistance, dynamicHitFirst(pc.scene, r.origin, direction, kRayFar, field));
         }
     }
     raysTraced = pc.sampleCount;
@@ -147,25 +163,40 @@ struct Survivors
     float far;
 };
 
+// Those that may hit something in the sphere.
+Survivors survivorsOfSphere(Receiver r, vec3 centre, float radius)
+{
+    Cone cone = coneOfSphere(r.origin, r.normal, centre, radius);
+    bool matters = !isBehind(r.origin, r.normal, centre, radius);
+#if CULLING == 3
+    matters = matters && !isNegligible(cone, r.normal);
+#endif
+    coneCount += matters ? 1u : 0u;
+    return Survivors(matters ? samplesInCone(cone, cone.axis * r.frame) : 0u, !matters ? 0.0 : CULLING == 1 ? kRayFar : cone.height);
+}
+
 Survivors survivorsOfBatch(Receiver r)
 {
     Survivors survivors = Survivors(0u, 0.0);
     for (uint k = 0u; k < pc.blockerCount; ++k) {
         BlockerBlock blocker = Blockers(pc.blockers).block[k];
-        Cone cone = coneOfSphere(r.origin, r.normal, blocker.centre, blocker.radius);
-        bool matters = !isBehind(r.origin, r.normal, blocker.centre, blocker.radius);
+        Survivors among = survivorsOfSphere(r, blocker.centre, blocker.radius);
 #if CULLING == 3
-        matters = matters && !isNegligible(cone, r.normal);
+        among.samples = samplesMeetingBones(r, blocker, among.samples);
 #endif
-        uint among = matters ? samplesInCone(cone, cone.axis * r.frame) : 0u;
-#if CULLING == 3
-        among = samplesMeetingBones(r, blocker, among);
-#endif
-        survivors.samples |= among;
-        coneCount += matters ? 1u : 0u;
+        survivors.samples |= among.samples;
         // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
-        survivors.far = max(survivors.far, !matters ? 0.0 : CULLING == 1 ? kRayFar : cone.height);
+        survivors.far = max(survivors.far, among.far);
     }
+#ifdef FIELDS
+    FieldsBlock fields = Fields(pc.fields).block;
+    for (uint g = 0u; g < fields.groupCount; ++g) {
+        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        Survivors among = survivorsOfSphere(r, group.centre, groupRadius(group));
+        survivors.samples |= among.samples;
+        survivors.far = max(survivors.far, among.far);
+    }
+#endif
     return survivors;
 }
 
@@ -195,7 +226,8 @@ void traceTogether(Receiver r, Survivors survivors, uint base)
     for (uint i = me; i < rayCount; i += kGroupSize) {
         uint pixel = rays[i] / kBatch, bit = rays[i] % kBatch;
         vec3 direction = mat3(tangents[pixel], cross(normals[pixel], tangents[pixel]), normals[pixel]) * localSample(base + bit);
-        float hit = dynamicHitFirst(pc.scene, origins[pixel], direction, fars[pixel]);
+        float field = fieldAlong(origins[pixel], direction, fars[pixel]);
+        float hit = dynamicHitFirst(pc.scene, origins[pixel], direction, fars[pixel], field);
         if (hit >= 0.0) {
             atomicOr(hits[pixel], 1u << bit);
             atomicMin(nearestHits[pixel], floatBitsToUint(hit));
@@ -255,6 +287,11 @@ vec3 shareOf(vec3 occluded, vec3 unshadowed)
 void count()
 {
     uint considered = subgroupAdd(raysConsidered), traced = subgroupAdd(raysTraced), cones = subgroupAdd(coneCount);
+#ifdef FIELDS
+    uint evaluations = subgroupAdd(fieldEvaluations);
+    if (subgroupElect() && evaluations > 0u)
+        atomicAdd(Counters(pc.counters).block.fieldEvaluations, evaluations);
+#endif
     if (subgroupElect() && considered > 0u) {
         atomicAdd(Counters(pc.counters).block.raysConsidered, considered);
         atomicAdd(Counters(pc.counters).block.raysTraced, traced);
@@ -270,8 +307,13 @@ Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 #ifdef REFERENCE
     rotation += kTau * fract(float(pc.frameIndex) * 0.61803398875);
 #endif
-    vec3 normal = unitFromOctahedral(octahedral.zw);
-    return Receiver(rayOrigin(position, unitFromOctahedral(octahedral.xy), frameBlock.eye), normal, turnedFrame(normal, rotation));
+    vec3 normal = unitFromOctahedral(octahedral.zw), geometricNormal = unitFromOctahedral(octahedral.xy);
+#ifdef FIELDS
+    // Where the camera sees a field it is up to a part of a pixel off its surface, on either side: rays begin outside.
+    float halfPixel = 0.5 * length(frameBlock.rayX) * frameBlock.near / depth;
+    position += max(halfPixel - abs(fieldDistance(Fields(pc.fields).block, position)), 0.0) * geometricNormal;
+#endif
+    return Receiver(rayOrigin(position, geometricNormal, frameBlock.eye), normal, turnedFrame(normal, rotation));
 }
 
 void main()

@@ -23,12 +23,12 @@ FieldFrame Fields::write(const FrameView& view)
     }
     writeGroups(steps_, groups_);
     writeStructure(steps_, structure_);
-    return {.block = {.steps = frameCopy(*device_, steps_),
-                      .groups = frameCopy(*device_, groups_),
-                      .surfaces = frameCopy(*device_, surfaces_),
-                      .groupCount = static_cast<uint32_t>(groups_.size()),
-                      .skipped = 0},
-            .structure = structure_};
+    const shader::FieldsBlock block{.steps = frameCopy(*device_, steps_),
+                                    .groups = frameCopy(*device_, groups_),
+                                    .surfaces = frameCopy(*device_, surfaces_),
+                                    .groupCount = static_cast<uint32_t>(groups_.size()),
+                                    .skipped = 0};
+    return {.block = block, .address = frameCopy(*device_, std::span(&block, 1)), .structure = structure_};
 }
 
 const gpu::Pipeline& Fields::pipelineFor(const Look& look)

@@ -16,7 +16,8 @@ namespace antumbra::render {
 struct FieldFrame
 {
     shader::FieldsBlock block{};
-    std::string_view structure; // a define of what evaluates them; empty: it walks through the steps. As long as its Fields write no other
+    VkDeviceAddress address = 0; // of the block on the device
+    std::string_view structure;  // a define of what evaluates them; empty: it walks through the steps. As long as its Fields write no other
 
     explicit operator bool() const { return block.groupCount > 0; }
 };

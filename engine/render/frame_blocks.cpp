@@ -31,12 +31,16 @@ void writeCamera(shader::FrameBlock& block, const CameraView& camera, uvec2 exte
     block.rayY = camera.rotation * vec3{0, -2.0f * top / height, 0};
 }
 
-vec3 meanAlbedoOfCharacters(const FrameView& view, const GpuScene& scene)
+/// Of what hides light from frame to frame: characters, and all steps of distance fields for one more.
+vec3 meanAlbedoOfBlockers(const FrameView& view, const GpuScene& scene)
 {
-    vec3 sum{0};
+    vec3 sum{0}, fields{0};
     for (const CharacterDraw& character : view.characters)
         sum += scene.model(character.model).meanAlbedo;
-    return view.characters.empty() ? sum : sum / static_cast<float>(view.characters.size());
+    for (const FieldStepDraw& step : view.fieldSteps)
+        fields += step.surface.albedo / static_cast<float>(view.fieldSteps.size());
+    const size_t count = view.characters.size() + (view.fieldSteps.empty() ? 0 : 1);
+    return (sum + fields) / static_cast<float>(std::max<size_t>(count, 1));
 }
 
 /// What of baked light follows from the frame's own.
@@ -101,7 +105,7 @@ uint32_t FrameBlocks::write(const FrameView& view, const GpuScene& scene, const 
     writeEnvironment(view, scene);
     newest_.baked = baked;
     if (const bake::Bake* bake = view.shownBake())
-        completeBaked(newest_, bake->settings, meanAlbedoOfCharacters(view, scene));
+        completeBaked(newest_, bake->settings, meanAlbedoOfBlockers(view, scene));
     const gpu::Buffer& frame = blocks_[device_->frameSlot()];
     std::memcpy(frame.mapped(), &newest_, sizeof(newest_));
     return frame.slot();

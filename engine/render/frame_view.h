@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace antumbra::render {
@@ -117,8 +118,15 @@ struct FrameView
         return std::ranges::any_of(areaLights,
                                    [this](const AreaLightDraw& light) { return shadowOf(light) == scene::LightShadow::Reference; });
     }
+    /// Whether something in view hides light of the environment from frame to frame.
+    [[nodiscard]] bool hidesEnvironment() const { return hasEnvironment() && !(characters.empty() && fieldSteps.empty()); }
+    /// Why not, where it does not.
+    [[nodiscard]] std::string_view whyNothingHides() const
+    {
+        return hasEnvironment() ? "no DynamicSkinned in the scene" : "no Environment in the scene";
+    }
     /// Whether a pass traces rays through the scene.
-    [[nodiscard]] bool tracesRays() const { return (hasEnvironment() && !characters.empty()) || tracesAreaLights(); }
+    [[nodiscard]] bool tracesRays() const { return hidesEnvironment() || tracesAreaLights(); }
     /// Keeps the memory.
     void clear()
     {

@@ -2,6 +2,8 @@
 #include "render/shadow/bvh.h"
 #include "scene/animation.h"
 
+#include <algorithm>
+
 namespace antumbra::render {
 
 void GpuScene::useBackend(RayBackend backend)
@@ -45,7 +47,8 @@ void GpuScene::makeTraced(const FrameView& view)
             makeNodes(draw.model);
         makeTracedCharacter(*characters_[draw.slot], *models_[draw.model]);
     }
-    makeTracedScene(static_cast<uint32_t>(view.statics.size() + view.characters.size()));
+    makeTracedScene(
+        std::max(1u, static_cast<uint32_t>(view.statics.size() + view.characters.size()))); // of distance fields alone: none in it
 }
 
 void GpuScene::makeTracedCharacter(DeviceCharacter& character, const DeviceModel& model)

@@ -2,6 +2,7 @@
 #include "render/shader_structs.h"
 #include "render/shadow/bvh.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace antumbra::render {
@@ -42,7 +43,7 @@ class FrameArray
 {
 public:
     FrameArray(gpu::Device& device, const FrameView& view)
-        : bytes_(device.frameBytes((view.statics.size() + view.characters.size()) * sizeof(T)))
+        : bytes_(device.frameBytes(std::max<size_t>(view.statics.size() + view.characters.size(), 1) * sizeof(T)))
     {
     }
 
@@ -110,7 +111,7 @@ void PosingSystem::recordBvhScene(graph::Recorder& recorder, const FrameView& vi
     const VkDeviceAddress header = scene.bvhScene().address();
     recorder.dispatch(bvhScene_,
                       shader::BvhSceneDispatch{placements.address(), header + sizeof(shader::BvhScene), header, placements.count()},
-                      {placements.count(), 1}, {64, 1});
+                      {std::max(placements.count(), 1u), 1}, {64, 1}); // of none too it writes the scene
 }
 
 void PosingSystem::declareTriangleBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)

@@ -155,8 +155,8 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     const FieldFrame fields = gbuffer_.writeFields(view);
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, fields, baked, posed, extent(),
                                        {.all = captures_ != 0, .steps = isCaptured(Aov::Steps)});
-    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, baked, g, posed, counters);
-    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, baked, g, posed);
+    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, fields, baked, g, posed, counters);
+    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, fields, baked, g, posed);
     const AreaLit lit = areaLights_.declare(graph_, view, frame, scene_, fields, g, posed, counters);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});

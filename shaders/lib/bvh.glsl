@@ -125,24 +125,26 @@ float distanceToBlocker(uint64_t scene, vec3 origin, vec3 direction, float far, 
     return hit.mask != 0u ? hit.at : -1.0;
 }
 
-// How far off the dynamic surface is that the ray hits before any static one; negative where there is none. The search stands in the
+// How far off the dynamic surface is that the ray hits before any static one; negative where there is none. One that is no triangle may be
+// `known` to be hit so far off; negative: none. The search stands in the
 // program once, for CPU devices.
-float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far)
+float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far, float known)
 {
-    BvhHit hit = BvhHit(far, 0u);
+    BvhHit hit = BvhHit(known >= 0.0 ? known : far, 0u);
     bool isHidden = false;
     for (uint asked = kMaskDynamic; asked != 0u; asked = asked == kMaskDynamic && isHidden ? kMaskStatic : 0u) {
         hit = hitInScene(BvhSceneAt(scene).scene, asked, asked == kMaskStatic, origin, direction, hit.at);
-        isHidden = asked == kMaskDynamic ? hit.mask != 0u : hit.mask == 0u;
+        isHidden = asked == kMaskDynamic ? hit.mask != 0u || known >= 0.0 : hit.mask == 0u;
     }
     return isHidden ? hit.at : -1.0;
 }
 
 // The same by one ray through everything: what a renderer without culling does.
-float dynamicHitFirstOfAll(uint64_t scene, vec3 origin, vec3 direction)
+float dynamicHitFirstOfAll(uint64_t scene, vec3 origin, vec3 direction, float known)
 {
-    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, false, origin, direction, kRayFar);
-    return hit.mask == kMaskDynamic ? hit.at : -1.0;
+    float far = known >= 0.0 ? known : kRayFar;
+    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, false, origin, direction, far);
+    return hit.mask == kMaskStatic ? -1.0 : hit.mask == kMaskDynamic ? hit.at : known;
 }
 
 #endif

@@ -1,22 +1,25 @@
-// Whether a signed distance field is in a ray's way. Needs lib/field.glsl.
+// How far a ray goes until it meets a signed distance field. Needs lib/field.glsl.
 #ifndef LIB_FIELD_RAY_GLSL
 #define LIB_FIELD_RAY_GLSL
 
 #include "lib/field_surface.glsl"
 
-// By steps of what is clear, and no less than a ten-thousandth of the way; a ray ends where it is inside a solid.
-bool fieldBlocks(FieldsBlock fields, vec3 origin, vec3 direction, float before)
+layout(buffer_reference, scalar) readonly buffer Fields { FieldsBlock block; };
+
+// By steps of what is clear, and no less than a ten-thousandth of the way so far; a ray ends where it is inside a solid. Negative where it meets none
+// before `far`; what is farther than kFieldFarthestSeen is not met.
+float distanceToField(FieldsBlock fields, vec3 origin, vec3 direction, float far)
 {
-    vec2 way = vec2(0.0, before);
+    vec2 way = vec2(0.0, min(far, kFieldFarthestSeen));
     fields = fieldsAlong(fields, origin, direction, 0.0, way);
     float t = way.x;
-    bool isBlocked = false;
-    for (uint i = 0u; i < 4u * kFieldTraceSteps && t < way.y && !isBlocked; ++i) {
+    bool isMet = false;
+    for (uint i = 0u; i < 4u * kFieldTraceSteps && t < way.y && !isMet; ++i) {
         float f = fieldDistance(fields, origin + direction * t);
-        isBlocked = f < 0.0;
-        t += max(f, 1.0e-4 * before);
+        isMet = f < 0.0;
+        t += isMet ? 0.0 : max(f, 1.0e-5 + 1.0e-4 * t);
     }
-    return isBlocked;
+    return isMet ? t : -1.0;
 }
 
 #endif

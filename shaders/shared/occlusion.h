@@ -49,6 +49,7 @@ struct OcclusionTrace
     uint64_t counters; // CounterBlock
     uint64_t blockers; // BlockerBlock[blockerCount]
     uint64_t capsules; // CapsuleBlock[]
+    uint64_t fields; // FieldsBlock, where there are any
     uint frame; // slots: FrameBlock,
     uint depth;
     uint normals;

@@ -29,6 +29,6 @@ void main()
     if (i >= pc.count)
         return;
     In x = Inputs(pc.inputs).value[i];
-    Outputs(pc.outputs).value[i] = Out(uint(dynamicHitFirst(x.scene, x.origin, x.direction, x.far) >= 0.0),
-                                       uint(dynamicHitFirstOfAll(x.scene, x.origin, x.direction) >= 0.0));
+    Outputs(pc.outputs).value[i] = Out(uint(dynamicHitFirst(x.scene, x.origin, x.direction, x.far, -1.0) >= 0.0),
+                                       uint(dynamicHitFirstOfAll(x.scene, x.origin, x.direction, -1.0) >= 0.0));
 }

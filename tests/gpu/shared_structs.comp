@@ -153,6 +153,7 @@ void echo(OcclusionTrace b)
     put(b.counters);
     put(b.blockers);
     put(b.capsules);
+    put(b.fields);
     put(b.frame);
     put(b.depth);
     put(b.normals);

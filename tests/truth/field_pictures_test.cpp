@@ -47,14 +47,6 @@ protected:
         const shader::CounterBlock counters = shown.counters();
         EXPECT_EQ(counters.nanPixels + counters.infPixels + counters.negativePixels, 0u);
     }
-
-    static scene::SceneEntity ball(vec3 position, float radius)
-    {
-        scene::SceneEntity entity;
-        entity.transform.position = position;
-        entity.sdfPrimitive = scene::SDFPrimitive{.shape = scene::SDFShape::Sphere, .radius = radius};
-        return entity;
-    }
 };
 
 class FieldPicturesOf : public FieldPictures, public testing::WithParamInterface<FieldPicture>
@@ -92,7 +84,7 @@ TEST_F(FieldPictures, RaysMeetMeshesAndFields)
     open.entities.push_back(lampAt({0, 1.5f, 0}));
     scene::SceneFile mesh = open, field = open, both = open;
     mesh.entities.push_back(blocker({-0.4f, 0.5f, 0}, vec3(0.3f)));
-    field.entities.push_back(ball({0.4f, 0.5f, 0}, 0.18f));
+    field.entities.push_back(fieldBall({0.4f, 0.5f, 0}, 0.18f));
     both.entities.push_back(mesh.entities.back());
     both.entities.push_back(field.entities.back());
     const auto litBy = [](gpu::Device& on, const scene::SceneFile& scene) {
@@ -113,7 +105,7 @@ TEST_F(FieldPictures, WrittenOutAndWalkedThroughFieldsAreTheSame)
     const scene::SceneFile written = namedScene("garden");
     scene::SceneFile walked = written;
     for (size_t i = 0; i <= render::kMostWrittenSteps; ++i) {
-        walked.entities.push_back(ball({0, -60, 0}, 0.1f)); // out of sight
+        walked.entities.push_back(fieldBall({0, -60, 0}, 0.1f)); // out of sight
         walked.entities.back().sdfPrimitive->field = 1;
     }
     const auto shownBy = [](gpu::Device& on, const scene::SceneFile& scene) {
@@ -134,7 +126,7 @@ TEST_F(FieldPictures, WhereNothingAsksForFieldsNothingIsThere)
     Shown without(device(), scene);
     without.draw();
     EXPECT_THAT(stepsOf(without), Not(Contains("sdf shadow")));
-    scene.entities.push_back(ball({0, 0.4f, 0}, 0.2f));
+    scene.entities.push_back(fieldBall({0, 0.4f, 0}, 0.2f));
     Shown with(device(), scene);
     with.draw();
     EXPECT_THAT(stepsOf(with), Contains("sdf shadow"));
@@ -144,6 +136,25 @@ TEST_F(FieldPictures, WhereNothingAsksForFieldsNothingIsThere)
         off.draw();
         EXPECT_THAT(stepsOf(off), Not(Contains("sdf shadow"))) << key;
     }
+}
+
+// Light of the environment that a field hides is that of the closed form: FormFactorTest.
+TEST_F(FieldPictures, HideLightOfTheEnvironmentWhereThereIsNoMeshToo)
+{
+    scene::SceneFile scene = emptyScene();
+    scene.entities = {fieldBall({-0.4f, 0.5f, 0}, 0.4f), fieldBall({0.4f, 0.5f, 0}, 0.4f)};
+    Shown shown(device(), scene);
+    const std::vector<size_t> surface = surfaceOf(shown.capture(Aov::Depth));
+    const scene::ImageF occluded = shown.capture(Aov::Occluded), truth = shown.reference(1024);
+    const double light = meanOf(shown.capture(Aov::Unshadowed), surface);
+    EXPECT_GT(meanOf(truth, surface), 0.01 * light);
+    EXPECT_LT(rmse(occluded, truth, surface), 0.02 * light);
+    // Only what the other ball hides: nothing hides light from itself that is convex.
+    scene.entities.pop_back();
+    Shown alone(device(), scene);
+    const std::vector<size_t> ball = surfaceOf(alone.capture(Aov::Depth));
+    EXPECT_LT(meanOf(alone.capture(Aov::Occluded), ball), 0.002 * light);
+    expectSound(shown);
 }
 
 TEST_F(FieldPictures, MovingFieldsTakeNoMemory)

@@ -123,16 +123,9 @@ TEST_P(BlockingTest, ADynamicObjectInAClosedStaticBoxCastsNothing)
     }
 }
 
-TEST_P(BlockingTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
+/// On the floor; x = 0 parts left from right.
+void expectShadowOnTheRightAlone(Shown& shown)
 {
-    // The wall stands at x = 0, the sphere on its right; uniform light comes from above as well, so the left is lit but never darkened.
-    scene::SceneFile scene = emptyScene();
-    scene.camera.position = {0, 6, 0.1f};
-    scene.camera.target = {0, 0, 0};
-    scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {6, 1, 6}), staticShape(MeshKind::Cube, {0, 1, 0}, {0.1f, 2, 20}),
-                      movingShape(MeshKind::Sphere, {1, 0.5f, 0}, vec3(1))};
-    Shown shown(device(), scene);
-    shown.set("occlusion.backend", backend().name);
     const scene::ImageF depth = shown.capture(Aov::Depth), occluded = shown.capture(Aov::Occluded);
     float greatestLeft = 0, greatestRight = 0;
     for (const size_t pixel : surfaceOf(depth)) {
@@ -145,6 +138,23 @@ TEST_P(BlockingTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
     }
     EXPECT_EQ(greatestLeft, 0.0f);
     EXPECT_GT(greatestRight, 1.0f);
+}
+
+TEST_P(BlockingTest, AWallHidesADynamicObjectFromItsOtherSideOnly)
+{
+    // The wall stands at x = 0, the sphere on its right; uniform light comes from above as well, so the left is lit but never darkened.
+    scene::SceneFile scene = emptyScene();
+    scene.camera.position = {0, 6, 0.1f};
+    scene.camera.target = {0, 0, 0};
+    for (const scene::SceneEntity& sphere : {movingShape(MeshKind::Sphere, {1, 0.5f, 0}, vec3(1)), fieldBall({1, 0.5f, 0}, 0.5f)})
+        for (const char* culling : {"none", "bones"}) {
+            scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {6, 1, 6}), staticShape(MeshKind::Cube, {0, 1, 0}, {0.1f, 2, 20}),
+                              sphere};
+            Shown shown(device(), scene);
+            shown.set("occlusion.backend", backend().name);
+            shown.set("occlusion.culling", culling);
+            expectShadowOnTheRightAlone(shown);
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(Truth, BlockingTest, testing::Values(kRayQuery, kComputeBvh), backendName);

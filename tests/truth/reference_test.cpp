@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace antumbra::truth {
 namespace {
@@ -14,15 +15,16 @@ class ReferenceTest : public DeviceTest
 {
 };
 
-class FormFactorTest : public BackendTest<Backend>
+class FormFactorTest : public BackendTest<std::tuple<Backend, bool>>
 {
 };
 
-scene::SceneFile sphereOnPlane()
+/// Of triangles, or a distance field.
+scene::SceneFile sphereOnPlane(bool isField)
 {
     scene::SceneFile scene = emptyScene();
     scene.entities = {staticShape(scene::MeshKind::Plane, {0, 0, 0}, {6, 1, 6}),
-                      movingShape(scene::MeshKind::Sphere, {0, 0.5f, 0}, {1, 1, 1})};
+                      isField ? fieldBall({0, 0.5f, 0}, 0.5f) : movingShape(scene::MeshKind::Sphere, {0, 0.5f, 0}, {1, 1, 1})};
     return scene;
 }
 
@@ -113,7 +115,7 @@ FormFactorError formFactorError(Shown& shown, const scene::ImageF& depth, const 
 
 TEST_P(FormFactorTest, TheReferenceFindsIt)
 {
-    Shown shown(device(), sphereOnPlane());
+    Shown shown(device(), sphereOnPlane(std::get<bool>(GetParam())));
     shown.set("occlusion.backend", backend().name);
     const FormFactorError error = formFactorError(shown, shown.capture(Aov::Depth), shown.reference(4096));
     EXPECT_LT(error.rmse, 0.001);
@@ -123,7 +125,7 @@ TEST_P(FormFactorTest, TheReferenceFindsIt)
 
 TEST_P(FormFactorTest, ThePassFindsItWithEveryCulling)
 {
-    Shown shown(device(), sphereOnPlane());
+    Shown shown(device(), sphereOnPlane(std::get<bool>(GetParam())));
     shown.set("occlusion.backend", backend().name);
     shown.set("occlusion.samples", "1024");
     const scene::ImageF depth = shown.capture(Aov::Depth);
@@ -137,7 +139,10 @@ TEST_P(FormFactorTest, ThePassFindsItWithEveryCulling)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Truth, FormFactorTest, testing::Values(kRayQuery, kComputeBvh), backendName);
+INSTANTIATE_TEST_SUITE_P(Truth, FormFactorTest, testing::Combine(testing::Values(kRayQuery, kComputeBvh), testing::Bool()),
+                         [](const auto& test) {
+                             return backendName({std::get<Backend>(test.param), 0}) + (std::get<bool>(test.param) ? "Field" : "Triangles");
+                         });
 
 } // namespace
 } // namespace antumbra::truth

@@ -139,6 +139,14 @@ scene::SceneEntity movingShape(scene::MeshKind kind, vec3 position, vec3 scale)
     return shape;
 }
 
+scene::SceneEntity fieldBall(vec3 position, float radius)
+{
+    scene::SceneEntity entity;
+    entity.transform.position = position;
+    entity.sdfPrimitive = scene::SDFPrimitive{.shape = scene::SDFShape::Sphere, .radius = radius};
+    return entity;
+}
+
 scene::SceneEntity walker(vec3 position, const std::string& clip)
 {
     scene::SceneEntity character{.mesh = {scene::MeshKind::File, projectPath("assets") / "characters/walker.glb"}};

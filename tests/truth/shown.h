@@ -94,6 +94,8 @@ scene::SceneFile namedScene(const std::string& name, const scene::Settings& over
 scene::SceneFile emptyScene();
 scene::SceneEntity staticShape(scene::MeshKind kind, vec3 position, vec3 scale);
 scene::SceneEntity movingShape(scene::MeshKind kind, vec3 position, vec3 scale);
+/// A solid given by its distance field.
+scene::SceneEntity fieldBall(vec3 position, float radius);
 scene::SceneEntity walker(vec3 position, const std::string& clip);
 /// A floor, seen by the same camera, and no environment.
 scene::SceneFile darkScene();

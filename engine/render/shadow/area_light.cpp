@@ -237,7 +237,7 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                          .scene = &scene,
                          .g = &g,
                          .posed = &posed,
-                         .area = bodies_.write(view, tileCount.x, fields ? frameCopy(*device_, std::span(&fields.block, 1)) : 0),
+                         .area = bodies_.write(view, tileCount.x, fields.address),
                          .pixels = {.extent = (extent + scale - 1u) / scale, .scale = scale},
                          .slot = slot,
                          .isGlossy = static_cast<bool>(g.material)};

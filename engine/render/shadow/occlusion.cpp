@@ -12,16 +12,18 @@ constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/trac
 
 } // namespace
 
-const gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, Culling culling, bool isLocal)
+const gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, Culling culling, bool isLocal, bool hasFields)
 {
     const bool usesBvh = backend == RayBackend::ComputeBvh;
-    gpu::Pipeline& trace = trace_[(isLocal ? 2 : 0) + (usesBvh ? 1 : 0)][static_cast<size_t>(culling)];
+    gpu::Pipeline& trace = trace_[(hasFields ? 4 : 0) + (isLocal ? 2 : 0) + (usesBvh ? 1 : 0)][static_cast<size_t>(culling)];
     if (!trace) {
         std::vector<gpu::ShaderDefine> defines{{"CULLING", static_cast<int>(culling)}};
         if (usesBvh)
             defines.push_back({"COMPUTE_BVH"});
         if (isLocal)
             defines.push_back({"LOCAL_LIGHT"});
+        if (hasFields)
+            defines.push_back({"FIELDS"});
         trace = computePipeline(*device_, "occlusion_trace.comp", defines);
     }
     return trace;
@@ -39,7 +41,8 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
 }
 
 graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                              const Baked& baked, const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+                                              const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed,
+                                              graph::BufferRef& counters)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
     const auto pixelScale = static_cast<float>(knobs.scale);
@@ -48,21 +51,24 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     pass.read(g.normals, Use::Sampled);
     pass.read(g.unshadowed, Use::Sampled);
     pass.read(posed.scene, posed.sceneUse);
-    pass.read(posed.bounds, Use::StorageRead);
+    if (posed.bounds)
+        pass.read(posed.bounds, Use::StorageRead);
     if (baked)
         pass.read(baked.cells, Use::StorageRead);
     counters = pass.write(counters, Use::StorageWrite);
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
-    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling, static_cast<bool>(baked));
-    pass.record([this, &view, &scene, &pipeline, frame, g, traced, pixelScale, counted = counters](graph::Recorder& recorder) {
+    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling, static_cast<bool>(baked), static_cast<bool>(fields));
+    pass.record([this, &view, &scene, &pipeline, frame, fields = fields.address, g, traced, pixelScale,
+                 counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::OcclusionTrace{.scene = scene.tracedAddress(),
                                                  .samples = samples_.address(),
                                                  .counters = recorder.address(counted),
                                                  .blockers = scene.blockers().address(),
                                                  .capsules = scene.capsules().address(),
+                                                 .fields = fields,
                                                  .frame = frame,
                                                  .depth = recorder.sampled(g.depth),
                                                  .normals = recorder.sampled(g.normals),
@@ -103,18 +109,19 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
     return filtered;
 }
 
-Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
-                                const GBuffer& g, const Posed& posed, graph::BufferRef& counters)
+Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed,
+                                graph::BufferRef& counters)
 {
-    if (!posed.bounds) {
+    if (!view.hidesEnvironment()) {
         for (const std::string_view pass : {"occlusion trace", "occlusion filter"})
-            graph.skip(pass, view.hasEnvironment() ? "no DynamicSkinned in the scene" : "no Environment in the scene");
+            graph.skip(pass, view.whyNothingHides());
         return {};
     }
     if (view.knobs.occlusion.backend == RayBackend::RayQuery && scene.backend() != RayBackend::RayQuery)
         graph.skip("occlusion trace, ray-query", "the device has no ray queries: compute-bvh traces instead");
     prepare(view.knobs.occlusion);
-    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, baked, g, posed, counters);
+    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, fields, baked, g, posed, counters);
     return {declareFilter(graph, view, frame, g, traced), static_cast<uint32_t>(view.knobs.occlusion.scale)};
 }
 

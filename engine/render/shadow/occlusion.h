@@ -11,7 +11,7 @@ namespace antumbra::render {
 /// Share of the unshadowed irradiance that is hidden, where it was traced, with the surface it belongs to (lib/traced.glsl).
 struct Traced
 {
-    graph::ImageRef pixels;  // absent where nothing moves
+    graph::ImageRef pixels;  // absent where nothing hides light
     uint32_t pixelScale = 1; // of the image to the G-buffer: 1, 2, 4
 };
 
@@ -20,20 +20,21 @@ class OcclusionSystem
 public:
     explicit OcclusionSystem(gpu::Device& device) : device_(&device) {}
 
-    Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
-                   const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
+    Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const FieldFrame& fields,
+                   const Baked& baked, const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
 
 private:
-    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling, bool isLocal);
+    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling, bool isLocal, bool hasFields);
     void prepare(const OcclusionKnobs& knobs);
-    graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
-                                 const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
+    graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                                 const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed,
+                                 graph::BufferRef& counters);
     graph::ImageRef declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef traced);
 
     gpu::Device* device_;
-    // By backend and whether light is local, and by Culling, each made when first asked for.
-    std::array<std::array<gpu::Pipeline, 4>, 4> trace_;
+    // By backend, whether light is local and whether there are fields, and by Culling, each made when first asked for.
+    std::array<std::array<gpu::Pipeline, 4>, 8> trace_;
     gpu::Pipeline filter_;
     gpu::Buffer samples_;
     uint32_t sampleCount_ = 0;

@@ -19,36 +19,36 @@ uint32_t wantedSamples(const Knobs& knobs)
 
 } // namespace
 
-const gpu::Pipeline& ReferenceSystem::tracePipeline(RayBackend backend, bool isLocal)
+const gpu::Pipeline& ReferenceSystem::tracePipeline(RayBackend backend, bool isLocal, bool hasFields)
 {
     const bool usesBvh = backend == RayBackend::ComputeBvh;
-    gpu::Pipeline& trace = trace_[(usesBvh ? 2 : 0) + (isLocal ? 1 : 0)];
+    gpu::Pipeline& trace = trace_[(hasFields ? 4 : 0) + (usesBvh ? 2 : 0) + (isLocal ? 1 : 0)];
     if (!trace) {
         std::vector<gpu::ShaderDefine> defines{{"CULLING", 0}, {"REFERENCE"}};
         if (usesBvh)
             defines.push_back({"COMPUTE_BVH"});
         if (isLocal)
             defines.push_back({"LOCAL_LIGHT"});
+        if (hasFields)
+            defines.push_back({"FIELDS"});
         trace = computePipeline(*device_, "occlusion_trace.comp", defines);
     }
     return trace;
 }
 
 graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                         const Baked& baked, const GBuffer& g, const Posed& posed)
+                                         const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed)
 {
     const uint32_t wanted = wantedSamples(view.knobs);
-    if (wanted == 0 || !posed.bounds) {
-        const std::string_view reason = wanted == 0             ? "reference.samples is 0"
-                                        : view.hasEnvironment() ? "no DynamicSkinned in the scene"
-                                                                : "no Environment in the scene";
+    if (wanted == 0 || !view.hidesEnvironment()) {
+        const std::string_view reason = wanted == 0 ? "reference.samples is 0" : view.whyNothingHides();
         graph.skip("reference trace", reason);
         graph.skip("reference accumulate", reason);
         frames_ = 0;
         isActive_ = false;
         return {};
     }
-    const gpu::Pipeline& trace = tracePipeline(scene.backend(), static_cast<bool>(baked));
+    const gpu::Pipeline& trace = tracePipeline(scene.backend(), static_cast<bool>(baked), static_cast<bool>(fields));
     if (!accumulate_)
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     const uvec2 extent = graph.extent(g.depth);
@@ -70,10 +70,11 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
             pass.read(baked.cells, Use::StorageRead);
         traced = pass.create("reference, traced", {.format = kMeanFormat, .like = g.depth}, Use::StorageWrite);
         const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
-        pass.record([&trace, &scene, frame, g, traced, own, summed = frames_](graph::Recorder& recorder) {
+        pass.record([&trace, &scene, frame, fields = fields.address, g, traced, own, summed = frames_](graph::Recorder& recorder) {
             recorder.dispatch(trace,
                               shader::OcclusionTrace{.scene = scene.tracedAddress(),
                                                      .counters = recorder.address(own),
+                                                     .fields = fields,
                                                      .frame = frame,
                                                      .depth = recorder.sampled(g.depth),
                                                      .normals = recorder.sampled(g.normals),

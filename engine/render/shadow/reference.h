@@ -14,16 +14,16 @@ public:
     explicit ReferenceSystem(gpu::Device& device) : device_(&device) {}
 
     /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
-    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const Baked& baked,
-                            const GBuffer& g, const Posed& posed);
+    graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
+                            const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed);
     /// Accumulated for the view as it stands; none where nothing is asked for, or nothing can be hidden.
     [[nodiscard]] std::optional<uint32_t> samples() const { return isActive_ ? std::optional(frames_ * samplesAFrame_) : std::nullopt; }
 
 private:
-    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, bool isLocal);
+    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, bool isLocal, bool hasFields);
 
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 4> trace_; // by backend and whether light is local, each made when first asked for
+    std::array<gpu::Pipeline, 8> trace_; // by backend, whether light is local and whether there are fields, each made when first asked for
     gpu::Pipeline accumulate_;
     graph::HistorySlot history_;
     uint64_t seen_ = 0;
