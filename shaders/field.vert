@@ -40,9 +40,8 @@ vec2 wayAmong(FieldsBlock fields, vec3 eye)
 
 void main()
 {
-    uint across = (uint(pc.extent.x) + kFieldTileSize - 1u) / kFieldTileSize;
     uint tile = uint(gl_VertexIndex) / 6u, k = uint(gl_VertexIndex) % 6u;
-    vec2 corner = vec2(uvec2(tile % across, tile / across) * kFieldTileSize);
+    vec2 corner = vec2((pc.firstTile + uvec2(tile % pc.tilesAcross, tile / pc.tilesAcross)) * kFieldTileSize);
     FieldCone cone = coneOfRays(corner);
     FieldsBlock fields = fieldsInCone(pc.fields, cone, kFieldFarthestSeen);
     vec2 way = wayAmong(fields, cone.apex);

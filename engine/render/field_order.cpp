@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace antumbra::render {
 
@@ -23,8 +24,11 @@ bool isFree(const FieldStepBlock& step)
 /// Until no part is larger than a group; parts are whole groups but for the last.
 void FieldOrder::halve(std::span<uint32_t> indices)
 {
-    if (indices.size() <= shader::kFieldGroupSteps)
+    if (indices.size() <= shader::kFieldGroupSteps) {
+        // Groups of the same shapes have the same structure then.
+        std::ranges::sort(indices, {}, [&](uint32_t index) { return std::pair(kinds_[index].shape, index); });
         return;
+    }
     Aabb box;
     for (const uint32_t index : indices)
         box.add(centres_[index]);

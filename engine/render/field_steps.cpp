@@ -266,9 +266,11 @@ FieldBound boundOf(const FieldStepBlock& step)
 void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBlock>& groups)
 {
     groups.clear();
+    const auto begins = [&](uint32_t i) { return (steps[i].flags & shader::kFieldBegins) != 0; };
     for (uint32_t i = 0; i < steps.size(); ++i) {
-        const bool isOpen = !groups.empty() && !isEverywhere(steps[i]) && !isEverywhere(steps[i - 1]) &&
-                            (steps[i].flags & shader::kFieldBegins) == 0 && isUnion(steps[i]) == isUnion(steps[i - 1]) &&
+        // What a field begins with keeps its place and stands alone, so that groups are those that FieldOrder puts together.
+        const bool isOpen = !groups.empty() && !isEverywhere(steps[i]) && !isEverywhere(steps[i - 1]) && !begins(i) && !begins(i - 1) &&
+                            isUnion(steps[i]) == isUnion(steps[i - 1]) &&
                             groups.back().endStep - groups.back().firstStep < shader::kFieldGroupSteps;
         if (!isOpen)
             groups.push_back({.firstStep = i, .endStep = i});
@@ -276,6 +278,21 @@ void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBl
     }
     for (FieldGroupBlock& group : groups)
         boundGroup(group, steps.subspan(group.firstStep, group.endStep - group.firstStep));
+}
+
+void writeParts(std::span<const FieldStepBlock> steps, std::span<const FieldGroupBlock> groups, std::vector<FieldPart>& parts)
+{
+    parts.clear();
+    for (uint32_t g = 0; g < groups.size(); ++g) {
+        const FieldStepBlock& step = steps[groups[g].firstStep]; // as all of its group: a union, or none
+        const bool begins = (step.flags & shader::kFieldBegins) != 0;
+        // What is no union works on all of its field so far.
+        while (!begins && !isUnion(step) && (steps[groups[parts.back().firstGroup].firstStep].flags & shader::kFieldBegins) == 0)
+            parts.pop_back();
+        if (begins || isUnion(step))
+            parts.push_back({g, g});
+        parts.back().endGroup = g + 1;
+    }
 }
 
 } // namespace antumbra::render

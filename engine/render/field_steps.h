@@ -32,4 +32,14 @@ FieldBound boundOf(const shader::FieldStepBlock& step);
 /// `groups`.
 void writeGroups(std::span<const shader::FieldStepBlock> steps, std::vector<shader::FieldGroupBlock>& groups);
 
+/// Groups [first, end) whose solid is joined to all others by plain unions, so that each can be looked at alone.
+struct FieldPart
+{
+    uint32_t firstGroup;
+    uint32_t endGroup;
+};
+/// As small as they can be, in order. Keeps the memory of `parts`.
+void writeParts(std::span<const shader::FieldStepBlock> steps, std::span<const shader::FieldGroupBlock> groups,
+                std::vector<FieldPart>& parts);
+
 } // namespace antumbra::render

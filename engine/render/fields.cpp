@@ -1,12 +1,44 @@
 #include "render/fields.h"
 
-#include "render/field_steps.h"
 #include "render/field_structure.h"
+#include "render/frame_blocks.h"
 #include "render/frame_copy.h"
 
 #include <algorithm>
 
 namespace antumbra::render {
+
+namespace {
+
+struct Tiles
+{
+    uvec2 first;
+    uvec2 count;
+};
+
+/// That may show what the groups hold: those about the boxes around their spheres, or all where a box reaches behind the eye.
+Tiles tilesOf(std::span<const shader::FieldGroupBlock> groups, const mat4& clipFromWorld, uvec2 extent)
+{
+    constexpr float kTileSize = shader::kFieldTileSize;
+    const uvec2 all = (extent + shader::kFieldTileSize - 1u) / shader::kFieldTileSize;
+    vec2 lowest{1}, highest{-1}; // in clip space, within the picture
+    for (const shader::FieldGroupBlock& group : groups) {
+        const float radius = group.reach / std::max(group.slope, 1e-6f);
+        for (int corner = 0; corner < 8; ++corner) {
+            const vec3 towards = 2.0f * vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f;
+            const vec4 clip = clipFromWorld * vec4(group.centre + radius * towards, 1);
+            if (!(clip.w > 1e-3f * radius)) // so that rounding does not matter
+                return {uvec2(0), all};
+            lowest = glm::min(lowest, vec2(clip) / clip.w);
+            highest = glm::max(highest, vec2(clip) / clip.w);
+        }
+    }
+    const auto tileAt = [&](vec2 clip) { return glm::clamp((0.5f * clip + 0.5f) * vec2(extent) / kTileSize, vec2(0), vec2(all)); };
+    const uvec2 first(glm::floor(tileAt(lowest))), end(glm::ceil(tileAt(highest)));
+    return {first, glm::max(end, first) - first};
+}
+
+} // namespace
 
 FieldFrame Fields::write(const FrameView& view)
 {
@@ -28,13 +60,41 @@ FieldFrame Fields::write(const FrameView& view)
                                     .surfaces = frameCopy(*device_, surfaces_),
                                     .groupCount = static_cast<uint32_t>(groups_.size()),
                                     .skipped = 0};
+    writeDrawnParts(block);
     return {.block = block, .address = frameCopy(*device_, std::span(&block, 1)), .structure = structure_};
 }
 
-const gpu::Pipeline& Fields::pipelineFor(const Look& look)
+void Fields::writeDrawnParts(const shader::FieldsBlock& all)
+{
+    writeParts(steps_, groups_, partGroups_);
+    parts_.resize(std::max(parts_.size(), partGroups_.size()));
+    for (size_t i = 0; i < partGroups_.size(); ++i) {
+        const auto [firstGroup, endGroup] = partGroups_[i];
+        const uint32_t firstStep = groups_[firstGroup].firstStep, endStep = groups_[endGroup - 1].endStep;
+        Part& part = parts_[i];
+        writeStructure(std::span(steps_).subspan(firstStep, endStep - firstStep), part.structure);
+        part.block = {.steps = all.steps,
+                      .groups = all.groups + firstGroup * sizeof(shader::FieldGroupBlock),
+                      .surfaces = all.surfaces,
+                      .groupCount = endGroup - firstGroup,
+                      .skipped = 0};
+        if (part.structure.empty()) // groups count steps from the first of all, what is written out from its own first
+            continue;
+        part.block.steps += firstStep * sizeof(shader::FieldStepBlock);
+        part.block.surfaces += firstStep * sizeof(shader::FieldSurfaceBlock);
+    }
+}
+
+void Fields::prepare(const Look& look)
+{
+    for (size_t i = 0; i < partGroups_.size(); ++i)
+        parts_[i].pipeline = &pipelineFor(look, parts_[i].structure);
+}
+
+const gpu::Pipeline& Fields::pipelineFor(const Look& look, std::string_view structure)
 {
     const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
-        return made.structure == structure_ && made.firstTerm == look.firstTerm && made.keepsMaterial == look.keepsMaterial &&
+        return made.structure == structure && made.firstTerm == look.firstTerm && made.keepsMaterial == look.keepsMaterial &&
                made.keepsSteps == look.keepsSteps;
     });
     if (found != pipelines_.end())
@@ -46,9 +106,9 @@ const gpu::Pipeline& Fields::pipelineFor(const Look& look)
         defines.push_back({"KEEPS_MATERIAL"});
     if (look.keepsSteps)
         defines.push_back({"KEEPS_STEPS"});
-    if (!structure_.empty())
-        defines.push_back({.name = "FIELD_STRUCTURE", .text = structure_});
-    pipelines_.push_back({structure_, look.firstTerm, look.keepsMaterial, look.keepsSteps,
+    if (!structure.empty())
+        defines.push_back({.name = "FIELD_STRUCTURE", .text = structure});
+    pipelines_.push_back({std::string(structure), look.firstTerm, look.keepsMaterial, look.keepsSteps,
                           rasterPipeline(*device_, {.vertexShader = "field.vert",
                                                     .fragmentShader = "field.frag",
                                                     .defines = defines,
@@ -57,10 +117,20 @@ const gpu::Pipeline& Fields::pipelineFor(const Look& look)
     return pipelines_.back().pipeline;
 }
 
-void Fields::draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame, uvec2 extent)
+void Fields::draw(graph::Recorder& recorder, const FrameView& view, uint32_t frame, uvec2 extent) const
 {
-    const uvec2 tiles = (extent + shader::kFieldTileSize - 1u) / shader::kFieldTileSize;
-    recorder.draw(pipeline, shader::FieldDraw{.fields = fields.block, .frame = frame, .extent = ivec2(extent)}, 6 * tiles.x * tiles.y);
+    const mat4 clip = clipFromWorld(view.camera, extent);
+    for (size_t i = 0; i < partGroups_.size(); ++i) {
+        const auto [firstGroup, endGroup] = partGroups_[i];
+        const Tiles tiles = tilesOf(std::span(groups_).subspan(firstGroup, endGroup - firstGroup), clip, extent);
+        if (tiles.count.x == 0 || tiles.count.y == 0)
+            continue;
+        recorder.draw(
+            *parts_[i].pipeline,
+            shader::FieldDraw{
+                .fields = parts_[i].block, .frame = frame, .extent = ivec2(extent), .firstTile = tiles.first, .tilesAcross = tiles.count.x},
+            6 * tiles.count.x * tiles.count.y);
+    }
 }
 
 } // namespace antumbra::render

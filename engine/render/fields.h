@@ -3,6 +3,7 @@
 
 #include "graph/executor.h"
 #include "render/field_order.h"
+#include "render/field_steps.h"
 #include "render/frame_view.h"
 #include "render/gpu_scene.h"
 
@@ -39,9 +40,10 @@ public:
         bool keepsMaterial;
         bool keepsSteps;
     };
-    /// Made when first asked for.
-    const gpu::Pipeline& pipelineFor(const Look& look);
-    static void draw(graph::Recorder& recorder, const gpu::Pipeline& pipeline, const FieldFrame& fields, uint32_t frame, uvec2 extent);
+    /// Makes what draw() takes, where it is not there yet.
+    void prepare(const Look& look);
+    /// Of the frame that was written and prepared last. Part by part: a ray then meets the steps of what is near it alone.
+    void draw(graph::Recorder& recorder, const FrameView& view, uint32_t frame, uvec2 extent) const;
 
 private:
     struct Made
@@ -53,11 +55,24 @@ private:
         gpu::Pipeline pipeline;
     };
 
+    /// A part of the frame's fields that is drawn alone.
+    struct Part
+    {
+        shader::FieldsBlock block{};
+        std::string structure;
+        const gpu::Pipeline* pipeline = nullptr;
+    };
+
+    void writeDrawnParts(const shader::FieldsBlock& all);
+    const gpu::Pipeline& pipelineFor(const Look& look, std::string_view structure);
+
     gpu::Device* device_;
     FieldOrder order_;
     std::vector<shader::FieldStepBlock> listed_, steps_; // as the scene lists them, and in order
     std::vector<shader::FieldSurfaceBlock> surfaces_;
     std::vector<shader::FieldGroupBlock> groups_;
+    std::vector<FieldPart> partGroups_;
+    std::vector<Part> parts_; // the first partGroups_.size() are the frame's
     std::string structure_;
     std::deque<Made> pipelines_;
 };

@@ -100,7 +100,7 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
     std::ranges::sort(draws_);
 }
 
-const gpu::Pipeline& GBufferSystem::fieldPipeline(const FrameView& view, bool keepsSteps)
+void GBufferSystem::prepareFields(const FrameView& view, bool keepsSteps)
 {
     std::vector formats{kNormalFormat, kAlbedoFormat, kIrradianceFormat};
     if (keepsMaterial_)
@@ -108,7 +108,7 @@ const gpu::Pipeline& GBufferSystem::fieldPipeline(const FrameView& view, bool ke
     if (keepsSteps)
         formats.push_back(kStepsFormat);
     const std::string_view firstTerm = !view.hasEnvironment() ? "DARK" : view.shownBake() != nullptr ? "LOCAL_LIGHT" : "";
-    return fields_.pipelineFor({firstTerm, formats, gpu::Format::Depth32Float, keepsMaterial_, keepsSteps});
+    fields_.prepare({firstTerm, formats, gpu::Format::Depth32Float, keepsMaterial_, keepsSteps});
 }
 
 bool GBufferSystem::isGlossy(const FrameView& view, const GpuScene& scene)
@@ -156,11 +156,12 @@ GBuffer GBufferSystem::declare(graph::FrameGraph& graph, const FrameView& view, 
     const bool keepsSteps = kept.steps && fields;
     if (keepsSteps)
         g.steps = create("steps", kStepsFormat);
-    const gpu::Pipeline* fieldPipeline = fields ? &this->fieldPipeline(view, keepsSteps) : nullptr;
+    if (fields)
+        prepareFields(view, keepsSteps);
 
-    pass.record([this, &view, &scene, frame, fields, fieldPipeline, extent](graph::Recorder& recorder) {
-        if (fieldPipeline != nullptr) // first: what they hide is not shaded
-            Fields::draw(recorder, *fieldPipeline, fields, frame, extent);
+    pass.record([this, &view, &scene, frame, hasFields = static_cast<bool>(fields), extent](graph::Recorder& recorder) {
+        if (hasFields) // first: what they hide is not shaded
+            fields_.draw(recorder, view, frame, extent);
         const auto draw = [&](const Draw& each, const DeviceModel& model, const mat4& world, const gpu::Buffer& positions,
                               const gpu::Buffer& normals, uint32_t flags) {
             const Cluster& triangles = model.clusters[each.cluster];

@@ -65,7 +65,7 @@ private:
     void listDraws(const FrameView& view, const GpuScene& scene, uvec2 extent);
     [[nodiscard]] const gpu::Pipeline& pipelineFor(FirstTerm firstTerm, const shader::MaterialBlock& material);
 
-    const gpu::Pipeline& fieldPipeline(const FrameView& view, bool keepsSteps);
+    void prepareFields(const FrameView& view, bool keepsSteps);
 
     gpu::Device* device_;
     Fields fields_;

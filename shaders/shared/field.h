@@ -64,12 +64,14 @@ struct FieldSurfaceBlock
 const uint kFieldTileSize = 16u; // pixels along each side of a square that is drawn
 const float kFieldFarthestSeen = 1.0e4; // metres from the eye, of what has no end
 
-// What the camera sees of all fields: push constants.
+// What the camera sees of fields: push constants.
 struct FieldDraw
 {
     FieldsBlock fields;
     uint frame; // slot of a FrameBlock
     ivec2 extent; // pixels
+    uvec2 firstTile; // of those that are drawn
+    uint tilesAcross;
 };
 
 const uint kFieldQuilez = 0u;

@@ -350,6 +350,8 @@ void echo(FieldDraw b)
     put(b.fields);
     put(b.frame);
     put(b.extent);
+    put(b.firstTile);
+    put(b.tilesAcross);
 }
 
 #elif defined(FIELD_SHADE)

@@ -38,6 +38,11 @@ void put(ivec2 value)
     for (int i = 0; i < 2; ++i)
         put(uint(value[i]));
 }
+void put(uvec2 value)
+{
+    for (int i = 0; i < 2; ++i)
+        put(value[i]);
+}
 void put(ivec3 value)
 {
     for (int i = 0; i < 3; ++i)

@@ -31,7 +31,7 @@ TEST_F(SharedStructs, FieldSurfaceBlock)
 
 TEST_F(SharedStructs, FieldDraw)
 {
-    expectSameLayout<shader::FieldDraw>("FIELD_DRAW", [](const auto& b) { return wordsOf(b.fields, b.frame, b.extent); });
+    expectSameLayout<shader::FieldDraw>("FIELD_DRAW", [](const auto& b) { return wordsOf(b.fields, b.frame, b.extent, b.firstTile, b.tilesAcross); });
 }
 
 TEST_F(SharedStructs, FieldShade)

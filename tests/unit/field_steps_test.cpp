@@ -168,6 +168,41 @@ TEST(FieldSteps, PlainUnionsInARowMayChangePlaces)
     }
 }
 
+TEST(FieldSteps, TheNearestOfThePartsIsTheNearestOfAll)
+{
+    RandomInputs random(8);
+    std::vector<shader::FieldGroupBlock> groups;
+    std::vector<render::FieldPart> parts;
+    size_t most = 0;
+    for (int i = 0; i < 200; ++i) {
+        FieldSteps field = randomField(random, 1 + random.index(40));
+        for (size_t step = 1; step < field.size(); ++step) {
+            if (random.index(8) != 0)
+                field[step].operation = shader::kFieldUnion;
+            if (random.index(16) == 0)
+                field[step].flags |= shader::kFieldBegins;
+        }
+        render::writeGroups(field, groups);
+        render::writeParts(field, groups, parts);
+        most = std::max(most, parts.size());
+        ASSERT_EQ(parts.front().firstGroup, 0u);
+        ASSERT_EQ(parts.back().endGroup, groups.size());
+        for (int k = 0; k < 20; ++k) {
+            const dvec3 point = random.direction() * random.uniform(0, 4);
+            double nearest = render::kFieldUnbounded;
+            uint32_t next = 0;
+            for (const auto& [firstGroup, endGroup] : parts) {
+                EXPECT_EQ(firstGroup, next);
+                const uint32_t first = groups[firstGroup].firstStep, end = groups[endGroup - 1].endStep;
+                nearest = std::min(nearest, fieldDistance(std::span(field).subspan(first, end - first), point));
+                next = endGroup;
+            }
+            EXPECT_EQ(nearest, fieldDistance(field, point)) << i;
+        }
+    }
+    EXPECT_GT(most, 4u);
+}
+
 TEST(FieldSteps, PlacesAreKeptAsThingsMove)
 {
     RandomInputs random(7);
