@@ -43,6 +43,10 @@ void buildCounters(const shader::CounterBlock& counters, const render::Knobs& kn
     buildCount("rays traced", counters.raysTraced);
     buildRow("share", considered > 0 ? Line("{:.2f} %", 100 * counters.raysTraced / considered) : Line("-"), render::kOverlayText);
     buildRow("cones a pixel", pixels > 0 ? Line("{:.3f}", counters.cones / pixels) : Line("-"), render::kOverlayText);
+    if (counters.pieces > 0) // area lights
+        buildCount("pieces", counters.pieces);
+    if (counters.fieldEvaluations > 0)
+        buildCount("sdf evaluations", counters.fieldEvaluations);
     buildCount("fallback pixels", counters.fallbackPixels);
     buildFault("clamped pixels", counters.clampedPixels);
     buildFault("NaN pixels", counters.nanPixels);

@@ -119,6 +119,15 @@ TEST_F(PanelsTest, HiddenOnesDrawOnlyTheMessage)
     EXPECT_GT(drawnIndices(), 0);
 }
 
+TEST_F(PanelsTest, EvaluationsOfFieldsAreShownWhereThereAreAny)
+{
+    const int without = drawnIndices();
+    report_.counters.fieldEvaluations = 12'345'678;
+    frame();
+    frame();
+    EXPECT_GT(drawnIndices(), without);
+}
+
 TEST_F(PanelsTest, AFrameTimeToHoldHasItsLine)
 {
     const int without = drawnIndices();

@@ -1,4 +1,5 @@
-// Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5 and 8; methods/conical-culling.md).
+// Environment light that moving objects and distance fields hide, by conical ray culling (Xu et al. 2022, eq. 3-5 and 8;
+// methods/conical-culling.md).
 // Noise is left to the filter; the approximation is the environment's spherical harmonics.
 #pragma once
 
