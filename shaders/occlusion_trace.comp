@@ -1,4 +1,4 @@
-// Environment light that moving objects hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
+// Environment light that moving objects and distance fields hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
 // Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; REFERENCE jitters the points anew each frame; COMPUTE_BVH
 // traces without ray queries; LOCAL_LIGHT hides what comes in by the irradiance volume instead of the environment; FIELDS: distance fields
 // hide light as what moves does, the spheres about their groups of steps for bounds.
@@ -175,6 +175,9 @@ Survivors survivorsOfSphere(Receiver r, vec3 centre, float radius)
     return Survivors(matters ? samplesInCone(cone, cone.axis * r.frame) : 0u, !matters ? 0.0 : CULLING == 1 ? kRayFar : cone.height);
 }
 
+// Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
+Survivors together(Survivors a, Survivors b) { return Survivors(a.samples | b.samples, max(a.far, b.far)); }
+
 Survivors survivorsOfBatch(Receiver r)
 {
     Survivors survivors = Survivors(0u, 0.0);
@@ -184,17 +187,13 @@ Survivors survivorsOfBatch(Receiver r)
 #if CULLING == 3
         among.samples = samplesMeetingBones(r, blocker, among.samples);
 #endif
-        survivors.samples |= among.samples;
-        // Rays may end at the greatest height of all cones that hold them; the greatest of all cones is never less.
-        survivors.far = max(survivors.far, among.far);
+        survivors = together(survivors, among);
     }
 #ifdef FIELDS
     FieldsBlock fields = Fields(pc.fields).block;
     for (uint g = 0u; g < fields.groupCount; ++g) {
         FieldGroupBlock group = FieldGroups(fields.groups).group[g];
-        Survivors among = survivorsOfSphere(r, group.centre, groupRadius(group));
-        survivors.samples |= among.samples;
-        survivors.far = max(survivors.far, among.far);
+        survivors = together(survivors, survivorsOfSphere(r, group.centre, groupRadius(group)));
     }
 #endif
     return survivors;

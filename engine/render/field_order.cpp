@@ -21,7 +21,7 @@ bool isFree(const FieldStepBlock& step)
 
 } // namespace
 
-/// Until no part is larger than a group; parts are whole groups but for the last.
+/// Until no half is larger than a group; halves are whole groups but for the last.
 void FieldOrder::halve(std::span<uint32_t> indices)
 {
     if (indices.size() <= shader::kFieldGroupSteps) {

@@ -6,8 +6,8 @@
 
 layout(buffer_reference, scalar) readonly buffer Fields { FieldsBlock block; };
 
-// By steps of what is clear, and no less than a ten-thousandth of the way so far; a ray ends where it is inside a solid. Negative where it meets none
-// before `far`; what is farther than kFieldFarthestSeen is not met.
+// By steps of what is clear, and no less than a ten-thousandth of the way so far; a ray ends where it is inside a solid. Negative where it
+// meets none before `far`; what is farther than kFieldFarthestSeen is not met.
 float distanceToField(FieldsBlock fields, vec3 origin, vec3 direction, float far)
 {
     vec2 way = vec2(0.0, min(far, kFieldFarthestSeen));

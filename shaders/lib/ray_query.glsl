@@ -27,8 +27,8 @@ float distanceToBlocker(uint64_t scene, vec3 origin, vec3 direction, float far, 
 }
 
 // How far off a dynamic surface is that the ray hits, if the first it hits is one; negative if not. One that is no triangle may be `known` to
-// be hit so far off; negative: none. Any dynamic hit will do where nothing static lies before it; only else must the closest one be known. One loop with one query in it: CPU devices run the code of every branch,
-// so the query must stand in the program once.
+// be hit so far off; negative: none. Any dynamic hit will do where nothing static lies before it; only else must the closest one be known.
+// One loop with one query in it: CPU devices run the code of every branch, so the query must stand in the program once.
 float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far, float known)
 {
     const uint kAnyDynamic = 0u, kStaticBefore = 1u, kClosestDynamic = 2u, kStaticBeforeClosest = 3u, kDone = 4u;

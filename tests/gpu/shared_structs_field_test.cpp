@@ -31,7 +31,8 @@ TEST_F(SharedStructs, FieldSurfaceBlock)
 
 TEST_F(SharedStructs, FieldDraw)
 {
-    expectSameLayout<shader::FieldDraw>("FIELD_DRAW", [](const auto& b) { return wordsOf(b.fields, b.frame, b.extent, b.firstTile, b.tilesAcross); });
+    expectSameLayout<shader::FieldDraw>("FIELD_DRAW",
+                                        [](const auto& b) { return wordsOf(b.fields, b.frame, b.extent, b.firstTile, b.tilesAcross); });
 }
 
 TEST_F(SharedStructs, FieldShade)

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace antumbra::truth {
 namespace {
@@ -99,24 +100,33 @@ TEST_F(FieldPictures, RaysMeetMeshesAndFields)
     EXPECT_LT(pastBoth, std::min(pastMesh, pastField));
 }
 
-// Few steps are written out for the compiler, many are walked through (render/field_structure.h).
+// Few steps are written out for the compiler, part by part where the camera sees them; many that melt into each other are one part, which
+// is walked through (render/field_structure.h).
 TEST_F(FieldPictures, WrittenOutAndWalkedThroughFieldsAreTheSame)
 {
     const scene::SceneFile written = namedScene("garden");
     scene::SceneFile walked = written;
     for (size_t i = 0; i <= render::kMostWrittenSteps; ++i) {
         walked.entities.push_back(fieldBall({0, -60, 0}, 0.1f)); // out of sight
-        walked.entities.back().sdfPrimitive->field = 1;
+        scene::SDFPrimitive& melted = *walked.entities.back().sdfPrimitive;
+        melted.operation = scene::SDFOperation::SmoothUnion;
+        melted.blend = 0.1f;
+        melted.order = 1000; // after all of the sculpture
     }
     const auto shownBy = [](gpu::Device& on, const scene::SceneFile& scene) {
-        Shown shown(on, scene);
+        Shown shown(on, scene, {320, 180});
         return std::pair(shown.capture(Aov::Irradiance), shown.capture(Aov::Depth));
     };
     const auto [lit, depth] = shownBy(device(), written);
     const auto [litWalked, depthWalked] = shownBy(device(), walked);
     const std::vector<size_t> surface = surfaceOf(depth);
-    EXPECT_EQ(surfaceOf(depthWalked), surface);
-    EXPECT_LT(rmse(litWalked, lit, surface), 0.01 * meanOf(lit, surface));
+    const double light = meanOf(lit, surface);
+    // A ray ends within 0.3 of a pixel of what it meets, wherever its march began: silhouettes and the edges of shade are a matter of that.
+    const auto countOf = [&](auto&& differs) { return std::ranges::count_if(surface, differs); };
+    EXPECT_LT(countOf([&](size_t i) { return std::abs(depthWalked.values[i] - depth.values[i]) > 0.01f * depth.values[i]; }),
+              0.001 * static_cast<double>(surface.size()));
+    EXPECT_LT(countOf([&](size_t i) { return glm::distance(pixelOf(litWalked, i), pixelOf(lit, i)) > 0.1 * light; }),
+              0.005 * static_cast<double>(surface.size()));
 }
 
 TEST_F(FieldPictures, WhereNothingAsksForFieldsNothingIsThere)
