@@ -1,6 +1,6 @@
 // Which share of each area light is seen past all signed distance fields (Ban, Balint, Valasek 2020). Variant METHOD: kFieldQuilez,
 // kFieldAaltonen, kFieldCone1, kFieldSubCones or kFieldTraced; the first three take lights for the spheres around them, and so does the fourth
-// without OUTLINES.
+// without OUTLINES. BONES: capsules stand for characters, which are seen by their meshes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -50,14 +50,14 @@ layout(local_size_x = kAreaGroupWidth, local_size_y = kAreaGroupHeight) in;
 #if METHOD == 4
 
 // By points on the light, as they light a diffuse surface.
-float seenOf(AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
+float seenOf(FieldsBlock fields, AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
 {
     float squareMetres = litArea(area.arrays, light, s.position), seen = 0.0, all = 0.0;
     for (uint i = 0u; i < pc.rays && squareMetres > 0.0; ++i) {
         LightSample point = lightSample(area.arrays, light, s, squareMetres, pointOfSequence(shift, i));
         bool isSeen = point.diffuse > 0.0;
         if (isSeen)
-            isSeen = distanceToField(pc.fields, s.position, point.direction, point.before) < 0.0;
+            isSeen = distanceToField(fields, s.position, point.direction, point.before) < 0.0;
         seen += isSeen ? point.diffuse : 0.0;
         all += point.diffuse;
     }
@@ -66,21 +66,38 @@ float seenOf(AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
 
 #else
 
-float seenOf(AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
+float seenOf(FieldsBlock fields, AreaBlock area, BodyBlock light, LitSurface s, vec2 shift)
 {
 #if METHOD == 0
-    return quilezVisibility(pc.fields, s.position, light.centre, light.radius);
+    return quilezVisibility(fields, s.position, light.centre, light.radius);
 #elif METHOD == 1
-    return aaltonenVisibility(pc.fields, s.position, light.centre, light.radius);
+    return aaltonenVisibility(fields, s.position, light.centre, light.radius);
 #elif METHOD == 2
-    return coneVisibility(pc.fields, s.position, light.centre, light.radius, pc.tolerance);
+    return coneVisibility(fields, s.position, light.centre, light.radius, pc.tolerance);
 #elif defined(OUTLINES)
     if ((light.flags & kBodySphere) == 0u)
-        return lightVisibility(pc.fields, area.arrays, light, s.position, s.normal, pc.cells);
-    return subConeVisibility(pc.fields, s.position, light.centre, light.radius, pc.cones);
+        return lightVisibility(fields, area.arrays, light, s.position, s.normal, pc.cells);
+    return subConeVisibility(fields, s.position, light.centre, light.radius, pc.cones);
 #else
-    return subConeVisibility(pc.fields, s.position, light.centre, light.radius, pc.cones);
+    return subConeVisibility(fields, s.position, light.centre, light.radius, pc.cones);
 #endif
+}
+
+#endif
+
+#ifdef BONES
+
+// Skin lies in its capsule as well as outside: along the normal until it is outside, and no longer on the surface.
+const uint kMostLifts = 8u; // a capsule's inside is met at right angles nearly everywhere, so that two or three do
+
+vec3 outOfBones(FieldsBlock fields, vec3 p, vec3 normal, float clear, bool isSkin)
+{
+    for (uint i = 0u; i < kMostLifts && isSkin; ++i) {
+        float f = fieldDistance(fields, p);
+        isSkin = f < clear;
+        p += isSkin ? (clear - f) * normal : vec3(0.0);
+    }
+    return p;
 }
 
 #endif
@@ -95,12 +112,22 @@ void main()
     LitSurface s = litSurface(frameBlock, SurfaceImages(pc.normals, 0u, 0u), pixel, max(depth, 1.0e-9));
     // Off the surface by half the pixel's width too: cones would creep along what they start on.
     float width = length(frameBlock.rayX) * frameBlock.near / max(depth, 1.0e-9);
-    s.position += 0.5 * width * unitFromOctahedral(texelFetch(sampledImages[pc.normals], pixel, 0).xy);
+    vec3 geometric = unitFromOctahedral(texelFetch(sampledImages[pc.normals], pixel, 0).xy);
+    s.position += 0.5 * width * geometric;
+    FieldsBlock seenFields = pc.fields;
+#ifdef BONES
+    bool isSkin = depth > 0.0 && texelFetch(sampledImages[pc.albedo], pixel, 0).a > 0.5;
+    s.position = outOfBones(pc.fields, s.position, geometric, 0.5 * width, isSkin);
+    seenFields.groupCount = pc.seenGroups;
+#endif
     for (uint i = 0u; i < area.lightCount; ++i) {
         BodyBlock light = Bodies(area.arrays.bodies).body[Lights(area.lights).block[i].body];
         // What faces away from all of the light is not lit whatever stands between.
         bool isFacing = depth > 0.0 && dot(s.normal, light.centre - s.position) > -light.radius;
-        float seen = isFacing ? seenOf(area, light, s, pointShift(pixel, i)) : 0.0;
+        bool isByBones = i >= pc.firstByBones && i < pc.endByBones;
+        FieldsBlock fields = seenFields;
+        fields.groupCount = isByBones ? pc.fields.groupCount : fields.groupCount;
+        float seen = isFacing ? seenOf(fields, area, light, s, pointShift(pixel, i)) : 0.0;
         if (isInside)
             Seen(pc.seen).share[(uint(i) * pc.litHeight + uint(litPixel.y)) * pc.litWidth + uint(litPixel.x)] = seen;
     }

@@ -26,7 +26,10 @@ scene::SDFPrimitive primitiveOf(const scene::JsonObject& from, const json& value
         renamed.erase(theirs);
     }
     std::vector<std::string> fields;
-    return scene::readSDFPrimitive(scene::JsonObject(renamed, file, "scene"), fields);
+    const scene::SDFPrimitive primitive = scene::readSDFPrimitive(scene::JsonObject(renamed, file, "scene"), fields);
+    if (primitive.shape == scene::SDFShape::Bones)
+        from.refuse("type", "is of a character, and there is none");
+    return primitive;
 }
 
 /// What the device reads beside the cases.

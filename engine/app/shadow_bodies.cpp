@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "ecs/each.h"
 #include "scene/animation.h"
+#include "scene/bone_capsules.h"
 #include "scene/components.h"
 #include "scene/light_body.h"
 
@@ -174,12 +175,33 @@ void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject
         world.add(entity, bodies);
 }
 
+void makeBones(ecs::World& world, Assets& assets, const std::string& subject)
+{
+    std::vector<std::pair<ecs::Entity, scene::FieldCapsules>> made;
+    for (auto [entity, primitive, drawable, dynamic] :
+         ecs::Each<ecs::Entity, const scene::SDFPrimitive, ecs::Maybe<const scene::Drawable>, ecs::Maybe<const scene::DynamicSkinned>>(
+             world))
+    {
+        if (primitive.shape != scene::SDFShape::Bones)
+            continue;
+        if (drawable == nullptr || dynamic == nullptr)
+            throw Error("an SDFPrimitive of shape bones is not DynamicSkinned with a mesh", subject);
+        const std::vector<scene::BoneCapsule> capsules = scene::boneCapsules(assets.models[drawable->model]);
+        made.emplace_back(entity,
+                          scene::FieldCapsules{static_cast<uint32_t>(assets.capsules.size()), static_cast<uint32_t>(capsules.size())});
+        assets.capsules.insert(assets.capsules.end(), capsules.begin(), capsules.end());
+    }
+    for (const auto& [entity, capsules] : made)
+        world.add(entity, capsules);
+}
+
 } // namespace
 
 void makeShadowBodies(ecs::World& world, scene::Assets& assets, const std::string& subject)
 {
     makeLights(world, assets, subject);
     makeOccluders(world, assets, subject);
+    makeBones(world, assets, subject);
 }
 
 } // namespace antumbra::app

@@ -1,5 +1,6 @@
 #include "render/bones.h"
 
+#include "scene/principal_axis.h"
 #include "scene/triangle_joints.h"
 
 #include <algorithm>
@@ -8,30 +9,13 @@ namespace antumbra::render {
 
 namespace {
 
-/// The direction of greatest spread, by power iteration on the covariance.
-vec3 principalAxis(const std::vector<vec3>& points, vec3 centre)
-{
-    mat3 covariance{0};
-    for (const vec3& point : points)
-        covariance += glm::outerProduct(point - centre, point - centre);
-    vec3 axis{0.577f, 0.577f, 0.577f};
-    for (int i = 0; i < 32; ++i) {
-        const vec3 next = covariance * axis;
-        const float length = glm::length(next);
-        if (length < 1e-12f)
-            break;
-        axis = next / length;
-    }
-    return axis;
-}
-
 /// Ends of the capsule's segment: along the axis, drawn in by the radius at both ends.
 void fitAxis(shader::BoneBlock& bone, const std::vector<vec3>& points)
 {
     vec3 centre{0};
     for (const vec3& point : points)
         centre += point / static_cast<float>(points.size());
-    const vec3 axis = principalAxis(points, centre);
+    const vec3 axis = scene::principalAxis(points, centre);
     float lowest = 0, highest = 0, radius = 0;
     for (const vec3& point : points) {
         const float along = glm::dot(point - centre, axis);

@@ -132,6 +132,8 @@ void extractFields(const ecs::World& world, FrameView& view)
     for (auto [primitive, material, matrix, name] :
          Each<const scene::SDFPrimitive, const scene::SDFMaterial, const scene::WorldMatrix, ecs::Maybe<const scene::Name>>(world))
     {
+        if (primitive.shape == scene::SDFShape::Bones)
+            continue;
         const std::optional<shader::FieldStepBlock> step = fieldStep(primitive, matrix.now);
         if (!step)
             throw Error("SDFPrimitive: a parameter or the transform is not finite, or flattens it", nameOf(name));
@@ -148,6 +150,31 @@ void extractFields(const ecs::World& world, FrameView& view)
             view.fieldSteps[i].step.flags |= shader::kFieldBegins;
 }
 
+void extractBones(const ecs::World& world, const scene::Assets& assets, FrameView& view)
+{
+    if (view.areaLights.empty())
+        return;
+    const auto& poses = world.resource<PoseStore>();
+    for (auto [primitive, range, matrix, pose, name] :
+         Each<const scene::SDFPrimitive, const scene::FieldCapsules, const scene::WorldMatrix, const Pose, ecs::Maybe<const scene::Name>>(
+             world))
+    {
+        for (const scene::BoneCapsule& bone : std::span(assets.capsules).subspan(range.first, range.count)) {
+            const scene::SDFPrimitive capsule{.shape = scene::SDFShape::Capsule,
+                                              .centre = bone.a,
+                                              .end = bone.b,
+                                              .radius = bone.radius,
+                                              .operation = primitive.operation,
+                                              .blend = primitive.blend};
+            std::optional<shader::FieldStepBlock> step = fieldStep(capsule, matrix.now * poses.joints(pose)[bone.joint]);
+            if (!step)
+                throw Error("SDFPrimitive: a bone's transform is not finite, or flattens it", nameOf(name));
+            step->flags = &bone == &assets.capsules[range.first] ? shader::kFieldBegins : 0;
+            view.boneSteps.push_back(*step);
+        }
+    }
+}
+
 } // namespace
 
 void extract(const ecs::World& world, const scene::Assets& assets, FrameView& view)
@@ -160,6 +187,7 @@ void extract(const ecs::World& world, const scene::Assets& assets, FrameView& vi
     extractAreaLights(world, view);
     extractOccluders(world, assets, view);
     extractFields(world, view);
+    extractBones(world, assets, view);
 }
 
 } // namespace antumbra::render

@@ -65,6 +65,7 @@ void setShape(FieldStepBlock& step, Frame& frame, const SDFPrimitive& p)
         step.shape = shader::kFieldPlane;
         frame = {.centre = p.direction * p.offset, .axis = p.direction};
         return;
+    case SDFShape::Bones: break; // many steps, each a capsule
     }
     check(false, "a shape");
 }

@@ -42,40 +42,49 @@ Tiles tilesOf(std::span<const shader::FieldGroupBlock> groups, const mat4& clipF
 
 FieldFrame Fields::write(const FrameView& view)
 {
-    if (view.fieldSteps.empty())
+    partGroups_.clear();
+    if (view.fieldSteps.empty() && view.boneSteps.empty())
         return {};
     listed_.clear();
     steps_.clear();
     surfaces_.clear();
     for (const FieldStepDraw& draw : view.fieldSteps)
         listed_.push_back(draw.step);
-    for (const uint32_t index : order_.of(listed_)) {
+    listed_.insert(listed_.end(), view.boneSteps.begin(), view.boneSteps.end());
+    for (const uint32_t index : order_.of(listed_)) { // where a field ends, those before it stay before it
         steps_.push_back(listed_[index]);
-        surfaces_.push_back(view.fieldSteps[index].surface);
+        if (index < view.fieldSteps.size())
+            surfaces_.push_back(view.fieldSteps[index].surface);
     }
     writeGroups(steps_, groups_);
     writeStructure(steps_, structure_);
-    const shader::FieldsBlock block{.steps = frameCopy(*device_, steps_),
-                                    .groups = frameCopy(*device_, groups_),
-                                    .surfaces = frameCopy(*device_, surfaces_),
-                                    .groupCount = static_cast<uint32_t>(groups_.size()),
-                                    .skipped = 0};
-    writeDrawnParts(block);
-    return {.block = block, .address = frameCopy(*device_, std::span(&block, 1)), .structure = structure_};
+    const shader::FieldsBlock all{.steps = frameCopy(*device_, steps_),
+                                  .groups = frameCopy(*device_, groups_),
+                                  .surfaces = frameCopy(*device_, surfaces_),
+                                  .groupCount = static_cast<uint32_t>(groups_.size()),
+                                  .skipped = 0};
+    shader::FieldsBlock seen = all;
+    seen.groupCount = static_cast<uint32_t>(std::ranges::lower_bound(groups_, surfaces_.size(), {}, &shader::FieldGroupBlock::firstStep) -
+                                            groups_.begin());
+    writeDrawnParts(seen);
+    return {.block = seen,
+            .address = frameCopy(*device_, std::span<const shader::FieldsBlock>(&seen, 1)),
+            .shadowing = all,
+            .structure = structure_};
 }
 
-void Fields::writeDrawnParts(const shader::FieldsBlock& all)
+void Fields::writeDrawnParts(const shader::FieldsBlock& seen)
 {
-    writeParts(steps_, groups_, partGroups_);
+    writeParts(steps_, std::span(groups_).first(seen.groupCount), partGroups_);
     parts_.resize(std::max(parts_.size(), partGroups_.size()));
     for (size_t i = 0; i < partGroups_.size(); ++i) {
         const auto [firstGroup, endGroup] = partGroups_[i];
         const uint32_t firstStep = groups_[firstGroup].firstStep, endStep = groups_[endGroup - 1].endStep;
         Part& part = parts_[i];
         writeStructure(std::span(steps_).subspan(firstStep, endStep - firstStep), part.structure);
-        part.block = {.steps = all.steps,
-                      .groups = all.groups + firstGroup * sizeof(shader::FieldGroupBlock),
-                      .surfaces = all.surfaces,
+        part.block = {.steps = seen.steps,
+                      .groups = seen.groups + firstGroup * sizeof(shader::FieldGroupBlock),
+                      .surfaces = seen.surfaces,
                       .groupCount = endGroup - firstGroup,
                       .skipped = 0};
         if (part.structure.empty()) // groups count steps from the first of all, what is written out from its own first

@@ -16,11 +16,13 @@ namespace antumbra::render {
 /// Where the frame's fields lie.
 struct FieldFrame
 {
-    shader::FieldsBlock block{};
-    VkDeviceAddress address = 0; // of the block on the device
-    std::string_view structure;  // a define of what evaluates them; empty: it walks through the steps. As long as its Fields write no other
+    shader::FieldsBlock block{};     // what is seen
+    VkDeviceAddress address = 0;     // of the block on the device
+    shader::FieldsBlock shadowing{}; // and, behind it, what stands for characters
+    std::string_view structure;      // of `shadowing`: a define of what evaluates it. Empty: it is walked through. Until the next write()
 
     explicit operator bool() const { return block.groupCount > 0; }
+    [[nodiscard]] bool hasBones() const { return shadowing.groupCount > block.groupCount; }
 };
 
 class Fields
@@ -63,7 +65,7 @@ private:
         const gpu::Pipeline* pipeline = nullptr;
     };
 
-    void writeDrawnParts(const shader::FieldsBlock& all);
+    void writeDrawnParts(const shader::FieldsBlock& seen);
     const gpu::Pipeline& pipelineFor(const Look& look, std::string_view structure);
 
     gpu::Device* device_;

@@ -90,8 +90,9 @@ struct FrameView
     std::vector<StaticDraw> statics;
     std::vector<CharacterDraw> characters;
     std::vector<AreaLightDraw> areaLights;
-    std::vector<OccluderDraw> occluders;   // none without a light
-    std::vector<FieldStepDraw> fieldSteps; // field by field, in order
+    std::vector<OccluderDraw> occluders;           // none without a light
+    std::vector<FieldStepDraw> fieldSteps;         // field by field, in order
+    std::vector<shader::FieldStepBlock> boneSteps; // fields that only area lights see, none without a light
     std::vector<mat4> joints;
     std::vector<float> morphWeights;
     Knobs knobs;
@@ -135,6 +136,7 @@ struct FrameView
         areaLights.clear();
         occluders.clear();
         fieldSteps.clear();
+        boneSteps.clear();
         joints.clear();
         morphWeights.clear();
     }

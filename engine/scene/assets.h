@@ -1,6 +1,7 @@
 // What a scene is made of, loaded once: components name its parts by index.
 #pragma once
 
+#include "scene/bone_capsules.h"
 #include "scene/convex_body.h"
 #include "scene/images.h"
 #include "scene/model.h"
@@ -22,8 +23,9 @@ struct BodyPart
 struct Assets
 {
     std::vector<Model> models;
-    std::vector<ImageF> environments; // equirectangular, W/(m^2 sr)
-    std::vector<BodyPart> bodyParts;  // of area lights and their occluders
+    std::vector<ImageF> environments;  // equirectangular, W/(m^2 sr)
+    std::vector<BodyPart> bodyParts;   // of area lights and their occluders
+    std::vector<BoneCapsule> capsules; // of characters that are fields to area lights
 };
 
 } // namespace antumbra::scene

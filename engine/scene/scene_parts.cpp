@@ -26,14 +26,15 @@ constexpr Words<LightShadow, 8> kLightShadows{{{"none", LightShadow::None},
                                                {"reference", LightShadow::Reference}}};
 constexpr Words<bool, 2> kHullsBy{{{"joint", false}, {"piece", true}}};
 constexpr Words<OccluderShape, 2> kOccluderShapes{{{"hulls", OccluderShape::Hulls}, {"triangles", OccluderShape::Triangles}}};
-constexpr Words<SDFShape, 8> kSDFShapes{{{"sphere", SDFShape::Sphere},
+constexpr Words<SDFShape, 9> kSDFShapes{{{"sphere", SDFShape::Sphere},
                                          {"box", SDFShape::Box},
                                          {"rounded_box", SDFShape::RoundedBox},
                                          {"torus", SDFShape::Torus},
                                          {"capsule", SDFShape::Capsule},
                                          {"cylinder", SDFShape::Cylinder},
                                          {"cone", SDFShape::Cone},
-                                         {"plane", SDFShape::Plane}}};
+                                         {"plane", SDFShape::Plane},
+                                         {"bones", SDFShape::Bones}}};
 constexpr Words<SDFOperation, 4> kSDFOperations{{{"union", SDFOperation::Union},
                                                  {"subtract", SDFOperation::Subtract},
                                                  {"intersect", SDFOperation::Intersect},
@@ -179,6 +180,11 @@ void readSDFShape(const JsonObject& part, SDFPrimitive& primitive)
         allow({"normal", "offset"});
         primitive.direction = part.direction("normal", primitive.direction);
         primitive.offset = part.number("offset", primitive.offset, kAnyLength);
+        break;
+    case SDFShape::Bones:
+        part.allowOnly({"shape", "operation", "k"});
+        if (primitive.operation != SDFOperation::Union && primitive.operation != SDFOperation::SmoothUnion)
+            part.refuse("operation", "of bones is union or smooth_union");
         break;
     }
 }

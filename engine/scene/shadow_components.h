@@ -55,10 +55,18 @@ struct OccluderBodies
     uint32_t count = 0;
 };
 
-enum class SDFShape { Sphere, Box, RoundedBox, Torus, Capsule, Cylinder, Cone, Plane };
+enum class SDFShape { Sphere, Box, RoundedBox, Torus, Capsule, Cylinder, Cone, Plane, Bones };
 enum class SDFOperation { Union, Subtract, Intersect, SmoothUnion };
 
-/// One step in making the distance field `field`: steps run by `order`, equal ones as the scene lists them.
+/// The steps that Bones stand for: a range of Assets::capsules.
+struct FieldCapsules
+{
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
+/// One step in making the distance field `field`: steps run by `order`, equal ones as the scene lists them. Bones are a capsule a
+/// bone of the entity's own skinned mesh, posed with it, and a field of their own: only area lights see it, in place of the mesh.
 struct SDFPrimitive
 {
     SDFShape shape = SDFShape::Sphere;

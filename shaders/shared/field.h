@@ -98,6 +98,10 @@ struct FieldShade
     int pixelScale; // of the lit image to the G-buffer: 1, 2, 4
     uint litWidth; // pixels
     uint litHeight;
+    uint albedo; // of the G-buffer, where characters are fields to lights
+    uint seenGroups; // of the fields that hide all lights; those behind them stand for characters
+    uint firstByBones; // lights that these hide too: of [firstByBones, endByBones), others meet the meshes
+    uint endByBones;
 };
 
 struct FieldCase

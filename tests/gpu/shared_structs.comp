@@ -373,6 +373,10 @@ void echo(FieldShade b)
     put(b.pixelScale);
     put(b.litWidth);
     put(b.litHeight);
+    put(b.albedo);
+    put(b.seenGroups);
+    put(b.firstByBones);
+    put(b.endByBones);
 }
 
 #elif defined(FIELD_CASE)

@@ -39,7 +39,7 @@ TEST_F(SharedStructs, FieldShade)
 {
     expectSameLayout<shader::FieldShade>("FIELD_SHADE", [](const auto& b) {
         return wordsOf(b.fields, b.area, b.counters, b.seen, b.frame, b.depth, b.normals, b.cones, b.cells, b.rays, b.tolerance,
-                       b.pixelScale, b.litWidth, b.litHeight);
+                       b.pixelScale, b.litWidth, b.litHeight, b.albedo, b.seenGroups, b.firstByBones, b.endByBones);
     });
 }
 

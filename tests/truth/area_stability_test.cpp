@@ -111,5 +111,16 @@ TEST_F(AreaStability, CharactersFlickerTheLessTheFinerTheirHulls)
     expectStable(fine, 512, 0.5);
 }
 
+TEST_F(AreaStability, CapsulesFlickerLessThanRays)
+{
+    scene::SceneFile scene = namedScene("stage");
+    for (scene::SceneEntity& entity : scene.entities)
+        if (entity.occluder) {
+            entity.occluder.reset();
+            entity.sdfPrimitive = scene::SDFPrimitive{.shape = scene::SDFShape::Bones};
+        }
+    expectStable(scene, 512, 1);
+}
+
 } // namespace
 } // namespace antumbra::truth

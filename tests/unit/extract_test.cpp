@@ -1,6 +1,7 @@
 #include "render/extract.h"
 
 #include "base/error.h"
+#include "render/field_steps.h"
 #include "scene/animator.h"
 #include "scene/populate.h"
 #include "tests/unit/allocation_counter.h"
@@ -199,6 +200,29 @@ TEST(Extract, AnSDFPrimitiveThatIsNotFiniteIsRefusedByName)
     } catch (const Error& error) {
         EXPECT_EQ(error.which, "ghost");
     }
+}
+
+TEST(Extract, BonesAreAFieldOfLightsAlone)
+{
+    Stage stage;
+    stage.assets.capsules = {{}, {0, {1, 0, 0}, {1, 2, 0}, 0.5f}, {0, {0, 0, 0}, {0, 0, 1}, 0.25f}};
+    Entity character;
+    for (auto [entity, matrix] : Each<Entity, const WorldMatrix, ecs::With<DynamicSkinned>>(stage.world))
+        if (vec3(matrix.now[3]) == vec3(4, 5, 6))
+            character = entity;
+    stage.world.add(character, SDFPrimitive{.shape = SDFShape::Bones});
+    stage.world.add(character, FieldCapsules{1, 2});
+    extract(stage.world, stage.assets, stage.view);
+    EXPECT_TRUE(stage.view.boneSteps.empty()) << "there is no light";
+
+    stage.world.create(AreaLight{}, LightBodies{}, WorldMatrix{});
+    extract(stage.world, stage.assets, stage.view);
+    EXPECT_TRUE(stage.view.fieldSteps.empty());
+    ASSERT_EQ(stage.view.boneSteps.size(), 2u);
+    EXPECT_EQ(stage.view.boneSteps[0].flags, shader::kFieldBegins);
+    EXPECT_EQ(stage.view.boneSteps[1].flags, 0u);
+    expectNear(render::boundOf(stage.view.boneSteps[0]).centre, {5, 6, 6});
+    EXPECT_NEAR(render::boundOf(stage.view.boneSteps[0]).radius, 1.5f, 1e-5f);
 }
 
 TEST(Extract, SteadyFramesAllocateNothing)

@@ -166,6 +166,15 @@ TEST(SceneFile, ReadsOccludersAndDistanceFields)
     EXPECT_EQ(scene.fields, (std::vector<std::string>{"rings", ""}));
 }
 
+TEST(SceneFile, BonesAreAFieldOfTheirOwn)
+{
+    const SDFPrimitive bones = *loadEntity(R"({"SDFPrimitive": {"shape": "bones", "operation": "smooth_union", "k": 0.05}})").sdfPrimitive;
+    EXPECT_EQ(bones.shape, SDFShape::Bones);
+    EXPECT_EQ(bones.blend, 0.05f);
+    EXPECT_THROW(loadEntity(R"({"SDFPrimitive": {"shape": "bones", "operation": "subtract"}})"), Error);
+    EXPECT_THROW(loadEntity(R"({"SDFPrimitive": {"shape": "bones", "field": "others"}})"), Error);
+}
+
 constexpr const char* kCrowd = R"({"settings": {"crowd.count": 10}, "entities": [
     {"name": "walker", "mesh": "walker.glb", "DynamicSkinned": {}, "transform": {"position": [0, 0, -5]}, "animation": {"clip": "idle"},
      "repeat": {"count": "crowd.count", "grid": [2, 3], "offset": 0.5, "turn_deg": 90, "clips": ["idle", "walk"]}}]})";

@@ -28,10 +28,10 @@ private:
     {
         std::string structure;
         uint32_t method; // of the shader
-        bool hasOutlines;
+        bool hasOutlines, hasBones;
         gpu::Pipeline pipeline;
     };
-    const gpu::Pipeline& pipelineFor(std::string_view structure, uint32_t method, bool hasOutlines);
+    const gpu::Pipeline& pipelineFor(std::string_view structure, uint32_t method, bool hasOutlines, bool hasBones);
 
     gpu::Device* device_;
     std::deque<Made> pipelines_; // each made when first asked for
