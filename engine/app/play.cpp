@@ -74,6 +74,7 @@ void playWithWindow(const PlayOptions& options, Window& window, Stage& stage, co
     swapchain.showColor(kLoadingColor);
     PlaybackOptions how = playbackOptions(options, glm::max(swapchain.windowExtent(), uvec2(1)));
     how.showsOverlay = !options.script;
+    how.waitsForPipelines = options.script.has_value();
     Playback playback(device, stage, how);
     playback.warmUp();
     window.setTitle("Antumbra: " + options.scene);

@@ -49,6 +49,7 @@ Playback::Playback(gpu::Device& device, Stage& stage, const PlaybackOptions& opt
     if (options.targetMilliseconds)
         quality_.emplace(*options.targetMilliseconds, render::resolveKnobs(render::DeviceClass::Gpu, stage.settings(), options.settings),
                          knobs_);
+    view_.waitsForPipelines = options.waitsForPipelines;
     if (panels_.areVisible() != options.showsOverlay)
         panels_.toggle();
 }

@@ -24,6 +24,7 @@ struct PlaybackOptions
     std::optional<double> targetMilliseconds; // a frame
     bool isRecording = false;
     bool showsOverlay = false;
+    bool waitsForPipelines = true;                  // as FrameView has it: the same pictures at every run
     size_t measuredFrames = Profiler::kShownFrames; // that statistics are over
 };
 

@@ -17,6 +17,8 @@ struct ShaderDefine
     std::string_view name;
     int value = 1;
     std::string_view text = {};
+
+    friend bool operator==(const ShaderDefine&, const ShaderDefine&) = default;
 };
 
 /// Compiles shaders/`file` (.comp, .vert, .frag) for Vulkan 1.3. Throws Error with glslang's first message, which names the line.

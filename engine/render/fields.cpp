@@ -5,6 +5,8 @@
 #include "render/frame_copy.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace antumbra::render {
 
@@ -42,102 +44,122 @@ Tiles tilesOf(std::span<const shader::FieldGroupBlock> groups, const mat4& clipF
 
 FieldFrame Fields::write(const FrameView& view)
 {
-    partGroups_.clear();
-    if (view.fieldSteps.empty() && view.boneSteps.empty())
-        return {};
+    pipelines_.beginFrame();
+    order(view);
+    const bool isLate = !mayShowNext(view);
+    if (!isLate)
+        std::swap(shown_, next_);
+    FieldFrame frame = copyShown();
+    frame.isLate = isLate;
+    return frame;
+}
+
+void Fields::order(const FrameView& view)
+{
     listed_.clear();
-    steps_.clear();
-    surfaces_.clear();
     for (const FieldStepDraw& draw : view.fieldSteps)
         listed_.push_back(draw.step);
     listed_.insert(listed_.end(), view.boneSteps.begin(), view.boneSteps.end());
+    next_.steps.clear();
+    next_.surfaces.clear();
     for (const uint32_t index : order_.of(listed_)) { // where a field ends, those before it stay before it
-        steps_.push_back(listed_[index]);
+        next_.steps.push_back(listed_[index]);
         if (index < view.fieldSteps.size())
-            surfaces_.push_back(view.fieldSteps[index].surface);
+            next_.surfaces.push_back(view.fieldSteps[index].surface);
     }
-    writeGroups(steps_, groups_);
-    writeStructure(steps_, structure_);
-    const shader::FieldsBlock all{.steps = frameCopy(*device_, steps_),
-                                  .groups = frameCopy(*device_, groups_),
-                                  .surfaces = frameCopy(*device_, surfaces_),
-                                  .groupCount = static_cast<uint32_t>(groups_.size()),
-                                  .skipped = 0};
-    shader::FieldsBlock seen = all;
-    seen.groupCount = static_cast<uint32_t>(std::ranges::lower_bound(groups_, surfaces_.size(), {}, &shader::FieldGroupBlock::firstStep) -
-                                            groups_.begin());
-    writeDrawnParts(seen);
-    return {.block = seen,
-            .address = frameCopy(*device_, std::span<const shader::FieldsBlock>(&seen, 1)),
-            .shadowing = all,
-            .structure = structure_};
+    writeGroups(next_.steps, next_.groups);
+    next_.seenGroups = static_cast<uint32_t>(
+        std::ranges::lower_bound(next_.groups, next_.surfaces.size(), {}, &shader::FieldGroupBlock::firstStep) - next_.groups.begin());
+    writeStructure(next_.steps, next_.structure);
+    divide(next_);
 }
 
-void Fields::writeDrawnParts(const shader::FieldsBlock& seen)
+void Fields::divide(Ordered& ordered)
 {
-    writeParts(steps_, std::span(groups_).first(seen.groupCount), partGroups_);
-    parts_.resize(std::max(parts_.size(), partGroups_.size()));
-    for (size_t i = 0; i < partGroups_.size(); ++i) {
-        const auto [firstGroup, endGroup] = partGroups_[i];
-        const uint32_t firstStep = groups_[firstGroup].firstStep, endStep = groups_[endGroup - 1].endStep;
-        Part& part = parts_[i];
-        writeStructure(std::span(steps_).subspan(firstStep, endStep - firstStep), part.structure);
-        part.block = {.steps = seen.steps,
-                      .groups = seen.groups + firstGroup * sizeof(shader::FieldGroupBlock),
-                      .surfaces = seen.surfaces,
-                      .groupCount = endGroup - firstGroup,
-                      .skipped = 0};
+    writeParts(ordered.steps, std::span(ordered.groups).first(ordered.seenGroups), partGroups_);
+    ordered.partCount = partGroups_.size();
+    ordered.parts.resize(std::max(ordered.parts.size(), ordered.partCount));
+    for (size_t i = 0; i < ordered.partCount; ++i) {
+        Part& part = ordered.parts[i];
+        part.groups = partGroups_[i];
+        const uint32_t first = ordered.groups[part.groups.firstGroup].firstStep, end = ordered.groups[part.groups.endGroup - 1].endStep;
+        writeStructure(std::span(ordered.steps).subspan(first, end - first), part.structure);
+    }
+}
+
+/// A field whose structure is new stays as it was until all is there that the frame before asked for.
+bool Fields::mayShowNext(const FrameView& view)
+{
+    if (view.waitsForPipelines || next_.steps.empty())
+        return true;
+    if (next_.structure == shown_.structure && std::ranges::equal(next_.drawn(), shown_.drawn(), {}, &Part::structure, &Part::structure))
+        return true;
+    std::vector<FieldPipelineKey> keys;
+    for (const FieldShader& shader : pipelines_.askedBefore())
+        if (shader.isDrawn())
+            std::ranges::transform(next_.drawn(), std::back_inserter(keys), [&](const Part& part) {
+                return FieldPipelineKey{shader, part.structure};
+            });
+        else
+            keys.push_back({shader, next_.structure});
+    return pipelines_.areThere(keys);
+}
+
+FieldFrame Fields::copyShown()
+{
+    if (shown_.steps.empty())
+        return {};
+    const shader::FieldsBlock all{.steps = frameCopy(*device_, shown_.steps),
+                                  .groups = frameCopy(*device_, shown_.groups),
+                                  .surfaces = frameCopy(*device_, shown_.surfaces),
+                                  .groupCount = static_cast<uint32_t>(shown_.groups.size()),
+                                  .skipped = 0};
+    shader::FieldsBlock seen = all;
+    seen.groupCount = shown_.seenGroups;
+    for (Part& part : shown_.drawn()) {
+        const auto [firstGroup, endGroup] = part.groups;
+        part.block = seen;
+        part.block.groups += firstGroup * sizeof(shader::FieldGroupBlock);
+        part.block.groupCount = endGroup - firstGroup;
         if (part.structure.empty()) // groups count steps from the first of all, what is written out from its own first
             continue;
+        const uint32_t firstStep = shown_.groups[firstGroup].firstStep;
         part.block.steps += firstStep * sizeof(shader::FieldStepBlock);
         part.block.surfaces += firstStep * sizeof(shader::FieldSurfaceBlock);
     }
+    return {.block = seen,
+            .address = frameCopy(*device_, std::span<const shader::FieldsBlock>(&seen, 1)),
+            .shadowing = all,
+            .structure = shown_.structure,
+            .pipelines = &pipelines_};
 }
 
 void Fields::prepare(const Look& look)
 {
-    for (size_t i = 0; i < partGroups_.size(); ++i)
-        parts_[i].pipeline = &pipelineFor(look, parts_[i].structure);
-}
-
-const gpu::Pipeline& Fields::pipelineFor(const Look& look, std::string_view structure)
-{
-    const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
-        return made.structure == structure && made.firstTerm == look.firstTerm && made.keepsMaterial == look.keepsMaterial &&
-               made.keepsSteps == look.keepsSteps;
-    });
-    if (found != pipelines_.end())
-        return found->pipeline;
-    std::vector<gpu::ShaderDefine> defines;
-    if (!look.firstTerm.empty())
-        defines.push_back({look.firstTerm});
-    if (look.keepsMaterial)
-        defines.push_back({"KEEPS_MATERIAL"});
-    if (look.keepsSteps)
-        defines.push_back({"KEEPS_STEPS"});
-    if (!structure.empty())
-        defines.push_back({.name = "FIELD_STRUCTURE", .text = structure});
-    pipelines_.push_back({std::string(structure), look.firstTerm, look.keepsMaterial, look.keepsSteps,
-                          rasterPipeline(*device_, {.vertexShader = "field.vert",
-                                                    .fragmentShader = "field.frag",
-                                                    .defines = defines,
-                                                    .colorFormats = look.colorFormats,
-                                                    .depthFormat = look.depthFormat})});
-    return pipelines_.back().pipeline;
+    FieldShader shader{.file = "field.frag", .depthFormat = look.depthFormat};
+    std::ranges::copy(look.colorFormats, shader.colorFormats.begin());
+    auto define = shader.defines.begin();
+    for (const auto& [name, isOn] :
+         {std::pair(look.firstTerm, !look.firstTerm.empty()), std::pair<std::string_view, bool>("KEEPS_MATERIAL", look.keepsMaterial),
+          std::pair<std::string_view, bool>("KEEPS_STEPS", look.keepsSteps)})
+        if (isOn)
+            (define++)->name = name;
+    for (Part& part : shown_.drawn())
+        part.pipeline = &pipelines_.of(shader, part.structure);
 }
 
 void Fields::draw(graph::Recorder& recorder, const FrameView& view, uint32_t frame, uvec2 extent) const
 {
     const mat4 clip = clipFromWorld(view.camera, extent);
-    for (size_t i = 0; i < partGroups_.size(); ++i) {
-        const auto [firstGroup, endGroup] = partGroups_[i];
-        const Tiles tiles = tilesOf(std::span(groups_).subspan(firstGroup, endGroup - firstGroup), clip, extent);
+    for (const Part& part : shown_.drawn()) {
+        const auto [firstGroup, endGroup] = part.groups;
+        const Tiles tiles = tilesOf(std::span(shown_.groups).subspan(firstGroup, endGroup - firstGroup), clip, extent);
         if (tiles.count.x == 0 || tiles.count.y == 0)
             continue;
         recorder.draw(
-            *parts_[i].pipeline,
+            *part.pipeline,
             shader::FieldDraw{
-                .fields = parts_[i].block, .frame = frame, .extent = ivec2(extent), .firstTile = tiles.first, .tilesAcross = tiles.count.x},
+                .fields = part.block, .frame = frame, .extent = ivec2(extent), .firstTile = tiles.first, .tilesAcross = tiles.count.x},
             6 * tiles.count.x * tiles.count.y);
     }
 }

@@ -3,11 +3,11 @@
 
 #include "graph/executor.h"
 #include "render/field_order.h"
+#include "render/field_pipelines.h"
 #include "render/field_steps.h"
 #include "render/frame_view.h"
 #include "render/gpu_scene.h"
 
-#include <deque>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +20,8 @@ struct FieldFrame
     VkDeviceAddress address = 0;     // of the block on the device
     shader::FieldsBlock shadowing{}; // and, behind it, what stands for characters
     std::string_view structure;      // of `shadowing`: a define of what evaluates it. Empty: it is walked through. Until the next write()
+    FieldPipelines* pipelines = nullptr; // of what is made for it
+    bool isLate = false;                 // not the view's: those of a frame before, as the pipelines for them are not there yet
 
     explicit operator bool() const { return block.groupCount > 0; }
     [[nodiscard]] bool hasBones() const { return shadowing.groupCount > block.groupCount; }
@@ -28,7 +30,7 @@ struct FieldFrame
 class Fields
 {
 public:
-    explicit Fields(gpu::Device& device) : device_(&device) {}
+    explicit Fields(gpu::Device& device) : device_(&device), pipelines_(device) {}
 
     /// Between Device::beginFrame and endFrame. Keeps its memory.
     FieldFrame write(const FrameView& view);
@@ -48,35 +50,41 @@ public:
     void draw(graph::Recorder& recorder, const FrameView& view, uint32_t frame, uvec2 extent) const;
 
 private:
-    struct Made
-    {
-        std::string structure;
-        std::string_view firstTerm;
-        bool keepsMaterial;
-        bool keepsSteps;
-        gpu::Pipeline pipeline;
-    };
-
-    /// A part of the frame's fields that is drawn alone.
+    /// A part of the fields that is drawn alone.
     struct Part
     {
-        shader::FieldsBlock block{};
+        FieldPart groups{};
         std::string structure;
+        shader::FieldsBlock block{};
         const gpu::Pipeline* pipeline = nullptr;
     };
 
-    void writeDrawnParts(const shader::FieldsBlock& seen);
-    const gpu::Pipeline& pipelineFor(const Look& look, std::string_view structure);
+    /// Fields in order, and how they are evaluated.
+    struct Ordered
+    {
+        std::vector<shader::FieldStepBlock> steps;
+        std::vector<shader::FieldSurfaceBlock> surfaces; // of the first steps: what is seen
+        std::vector<shader::FieldGroupBlock> groups;
+        uint32_t seenGroups = 0;
+        std::string structure; // of all
+        std::vector<Part> parts;
+        size_t partCount = 0; // of `parts`: the rest is kept for its memory
+
+        [[nodiscard]] std::span<const Part> drawn() const { return std::span(parts).first(partCount); }
+        [[nodiscard]] std::span<Part> drawn() { return std::span(parts).first(partCount); }
+    };
+
+    void order(const FrameView& view);
+    void divide(Ordered& ordered);
+    [[nodiscard]] bool mayShowNext(const FrameView& view);
+    [[nodiscard]] FieldFrame copyShown();
 
     gpu::Device* device_;
+    FieldPipelines pipelines_;
     FieldOrder order_;
-    std::vector<shader::FieldStepBlock> listed_, steps_; // as the scene lists them, and in order
-    std::vector<shader::FieldSurfaceBlock> surfaces_;
-    std::vector<shader::FieldGroupBlock> groups_;
+    std::vector<shader::FieldStepBlock> listed_; // as the scene lists them
     std::vector<FieldPart> partGroups_;
-    std::vector<Part> parts_; // the first partGroups_.size() are the frame's
-    std::string structure_;
-    std::deque<Made> pipelines_;
+    Ordered next_, shown_; // of the view, and of the frame
 };
 
 } // namespace antumbra::render

@@ -96,6 +96,7 @@ struct FrameView
     std::vector<mat4> joints;
     std::vector<float> morphWeights;
     Knobs knobs;
+    bool waitsForPipelines = true; // else fields of another structure than before are shown once what they take is made
     float exposure = 1;
     std::optional<ivec2> probedPixel; // whose area light is taken apart
     uint32_t splitColumn = 0;         // columns left of it show the final picture, the rest knobs.view

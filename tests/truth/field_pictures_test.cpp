@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace antumbra::truth {
@@ -164,6 +165,34 @@ TEST_F(FieldPictures, HideLightOfTheEnvironmentWhereThereIsNoMeshToo)
     Shown alone(device(), scene);
     const std::vector<size_t> ball = surfaceOf(alone.capture(Aov::Depth));
     EXPECT_LT(meanOf(alone.capture(Aov::Occluded), ball), 0.002 * light);
+    expectSound(shown);
+}
+
+// What a new structure takes is made beside the frames: these show the fields as they were, then as they are, and nothing between.
+TEST_F(FieldPictures, StayUntilWhatANewStructureTakesIsMade)
+{
+    const auto sceneOf = [](bool isRing) {
+        scene::SceneFile scene = darkScene();
+        scene.entities.push_back(lampAt({0, 1.5f, 0}));
+        scene.entities.push_back(fieldBall({0, 0.5f, 0}, 0.2f));
+        if (isRing)
+            *scene.entities.back().sdfPrimitive = {.shape = scene::SDFShape::Torus, .radius = 0.3f, .minorRadius = 0.1f};
+        return scene;
+    };
+    Shown shown(device(), sceneOf(false)), changed(device(), sceneOf(true));
+    const scene::ImageF before = shown.capture(Aov::Irradiance), after = changed.capture(Aov::Irradiance);
+    shown.view().waitsForPipelines = false;
+    const std::vector<render::FieldStepDraw> ball = shown.view().fieldSteps;
+    shown.view().fieldSteps = changed.view().fieldSteps;
+    EXPECT_EQ(shown.capture(Aov::Irradiance).values, before.values);
+    const auto start = std::chrono::steady_clock::now();
+    scene::ImageF now = before;
+    while (now.values == before.values && std::chrono::steady_clock::now() - start < std::chrono::seconds(60))
+        now = shown.capture(Aov::Irradiance);
+    EXPECT_EQ(now.values, after.values);
+    // What was made once is there at once.
+    shown.view().fieldSteps = ball;
+    EXPECT_EQ(shown.capture(Aov::Irradiance).values, before.values);
     expectSound(shown);
 }
 

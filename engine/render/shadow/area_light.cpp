@@ -149,7 +149,7 @@ AreaLit AreaLightSystem::declareReference(graph::FrameGraph& graph, const LitFra
     const graph::ImageDesc desc{.format = kMeanFormat, .extent = extent};
     const graph::History diffuse = graph.history("area reference, diffuse", desc, diffuseHistory_);
     const graph::History specular = frame.isGlossy ? graph.history("area reference, specular", desc, specularHistory_) : graph::History{};
-    const uint64_t now = fingerprintOf(*frame.view, frame.scene->backend(), extent);
+    const uint64_t now = fingerprintOf(*frame.view, frame.scene->backend(), extent, frame.hasLateFields);
     if (now != seen_ || !diffuse.valid)
         referenceFrames_ = 0;
     seen_ = now;
@@ -216,7 +216,7 @@ void AreaLightSystem::skipAll(graph::FrameGraph& graph)
     for (const std::string_view pass : {"area tiles", "area analytic", "area triangles", "area unshadowed", "area traced", "area reference",
                                         "area ratio", "area article", "area two-sided", "area upsample"})
         graph.skip(pass, reason);
-    FieldShadowSystem::skip(graph, reason);
+    skipFieldShadow(graph, reason);
     RatioShadowSystem::skip(graph, reason);
     PenumbraSystem::skip(graph, reason);
     prepareTables(false);
@@ -240,9 +240,10 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                          .area = bodies_.write(view, tileCount.x, fields.address),
                          .pixels = {.extent = (extent + scale - 1u) / scale, .scale = scale},
                          .slot = slot,
-                         .isGlossy = static_cast<bool>(g.material)};
+                         .isGlossy = static_cast<bool>(g.material),
+                         .hasLateFields = fields.isLate};
     prepareTables(frame.isGlossy);
-    seenPastFields_ = fieldShadows_.declare(graph, frame, fields, bodies_.ranges(), counters);
+    seenPastFields_ = declareFieldShadow(graph, frame, fields, bodies_.ranges(), counters);
     if (view.probedPixel)
         probe_.declare(graph, slot, g, frame.area, *view.probedPixel, view.knobs.area.planes);
     if (std::ranges::any_of(bodies_.ranges(), isTiled, &AreaLightRange::shadow))

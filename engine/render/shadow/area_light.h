@@ -26,8 +26,7 @@ class AreaLightSystem
 {
 public:
     AreaLightSystem(gpu::Device& device, const scene::Assets& assets)
-        : device_(&device), bodies_(device, assets), pipelines_(device), probe_(device), fieldShadows_(device), ratioShadows_(device),
-          penumbras_(device)
+        : device_(&device), bodies_(device, assets), pipelines_(device), probe_(device), ratioShadows_(device), penumbras_(device)
     {
     }
 
@@ -64,7 +63,6 @@ private:
     AreaBodies bodies_;
     AreaPipelines pipelines_;
     AreaProbeSystem probe_;
-    FieldShadowSystem fieldShadows_;
     RatioShadowSystem ratioShadows_;
     PenumbraSystem penumbras_;
     graph::BufferRef occluderTiles_, seenPastFields_; // of the frame that is declared

@@ -4,11 +4,11 @@
 
 namespace antumbra::render {
 
-uint64_t fingerprintOf(const FrameView& view, RayBackend backend, uvec2 extent)
+uint64_t fingerprintOf(const FrameView& view, RayBackend backend, uvec2 extent, bool hasLateFields)
 {
     Fnv1a print;
     const auto add = [&print](const auto&... values) { (print.add(values), ...); };
-    add(backend, extent, view.camera.eye, view.camera.rotation, view.camera.verticalFovRadians);
+    add(backend, extent, hasLateFields, view.camera.eye, view.camera.rotation, view.camera.verticalFovRadians);
     add(view.environment.image, view.environment.rotationRadians, view.environment.intensity);
     add(view.shownBake(), view.knobs.prt.window);
     for (const StaticDraw& draw : view.statics)

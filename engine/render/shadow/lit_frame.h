@@ -34,6 +34,7 @@ struct LitFrame
     LitPixels pixels;
     uint32_t slot; // of the FrameBlock
     bool isGlossy;
+    bool hasLateFields; // FieldFrame::isLate
 };
 
 } // namespace antumbra::render

@@ -53,7 +53,7 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     const uvec2 extent = graph.extent(g.depth);
     const graph::History history = graph.history("reference mean", {.format = kMeanFormat, .extent = extent}, history_);
-    const uint64_t now = fingerprintOf(view, scene.backend(), extent);
+    const uint64_t now = fingerprintOf(view, scene.backend(), extent, fields.isLate);
     if (now != seen_ || !history.valid)
         frames_ = 0;
     seen_ = now;

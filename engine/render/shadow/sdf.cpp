@@ -59,44 +59,54 @@ BoneLights boneLightsOf(const FieldFrame& fields, std::span<const AreaLightRange
 
 bool findsRays(const AreaLightRange& range) { return range.shadow == LightShadow::Traced || range.shadow == LightShadow::Reference; }
 
-} // namespace
-
-void FieldShadowSystem::skip(graph::FrameGraph& graph, std::string_view reason) { graph.skip("sdf shadow", reason); }
-
-const gpu::Pipeline& FieldShadowSystem::pipelineFor(std::string_view structure, uint32_t method, bool hasOutlines, bool hasBones)
+const gpu::Pipeline& pipelineFor(const LitFrame& frame, const FieldFrame& fields, const BoneLights& byBones)
 {
-    const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
-        return made.structure == structure && made.method == method && made.hasOutlines == hasOutlines && made.hasBones == hasBones;
-    });
-    if (found != pipelines_.end())
-        return found->pipeline;
-    std::vector<gpu::ShaderDefine> defines{{"METHOD", static_cast<int>(method)}};
-    if (hasOutlines)
-        defines.push_back({"OUTLINES"});
-    if (hasBones)
-        defines.push_back({"BONES"});
-    if (!structure.empty())
-        defines.push_back({.name = "FIELD_STRUCTURE", .text = structure});
-    pipelines_.push_back({std::string(structure), method, hasOutlines, hasBones, computePipeline(*device_, "field_shade.comp", defines)});
-    return pipelines_.back().pipeline;
+    const uint32_t method = methodOf(frame.view->knobs.sdf.shadow);
+    FieldShader shader{.file = "field_shade.comp", .defines = {gpu::ShaderDefine{"METHOD", static_cast<int>(method)}}};
+    size_t count = 1;
+    if (method == shader::kFieldSubCones && !std::ranges::all_of(frame.view->areaLights, &AreaLightDraw::isSphere))
+        shader.defines[count++].name = "OUTLINES";
+    if (byBones)
+        shader.defines[count++].name = "BONES";
+    // Written out, all lights meet the same steps.
+    return fields.pipelines->of(shader, !fields.hasBones() || byBones.isAll ? fields.structure : "");
 }
 
-graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
-                                            std::span<const AreaLightRange> ranges, graph::BufferRef& counters)
+/// But for what the graph places.
+shader::FieldShade shadeOf(const LitFrame& frame, const FieldFrame& fields, const BoneLights& byBones)
+{
+    const Knobs& knobs = frame.view->knobs;
+    return {.fields = byBones ? fields.shadowing : fields.block,
+            .area = frame.area,
+            .frame = frame.slot,
+            .cones = knobs.sdf.cones,
+            .cells = knobs.sdf.cells,
+            .rays = raysOf(knobs),
+            .tolerance = knobs.sdf.epsilon,
+            .pixelScale = static_cast<int>(frame.pixels.scale),
+            .litWidth = frame.pixels.extent.x,
+            .litHeight = frame.pixels.extent.y,
+            .seenGroups = fields.block.groupCount,
+            .firstByBones = byBones.first,
+            .endByBones = byBones.end};
+}
+
+} // namespace
+
+void skipFieldShadow(graph::FrameGraph& graph, std::string_view reason) { graph.skip("sdf shadow", reason); }
+
+graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
+                                    std::span<const AreaLightRange> ranges, graph::BufferRef& counters)
 {
     const Knobs& knobs = frame.view->knobs;
     const BoneLights byBones = boneLightsOf(fields, ranges);
     const bool hasBones = static_cast<bool>(byBones);
     if ((!fields && !hasBones) || knobs.sdf.shadow == FieldShadow::None || std::ranges::all_of(ranges, findsRays)) {
-        skip(graph, !fields && !hasBones                    ? "no SDFPrimitive in the scene"
-                    : knobs.sdf.shadow == FieldShadow::None ? "sdf.shadow is none"
-                                                            : "rays of area.shadow meet distance fields");
+        skipFieldShadow(graph, !fields && !hasBones                    ? "no SDFPrimitive in the scene"
+                               : knobs.sdf.shadow == FieldShadow::None ? "sdf.shadow is none"
+                                                                       : "rays of area.shadow meet distance fields");
         return {};
     }
-    const uint32_t method = methodOf(knobs.sdf.shadow);
-    const bool hasOutlines = method == shader::kFieldSubCones && !std::ranges::all_of(frame.view->areaLights, &AreaLightDraw::isSphere);
-    // Written out, all lights meet the same steps.
-    const std::string_view structure = !fields.hasBones() || byBones.isAll ? fields.structure : "";
     graph::Pass pass = graph.add("sdf shadow");
     for (const graph::ImageRef image : {frame.g->depth, frame.g->normals, hasBones ? frame.g->albedo : graph::ImageRef{}})
         if (image)
@@ -105,28 +115,15 @@ graph::BufferRef FieldShadowSystem::declare(graph::FrameGraph& graph, const LitF
     const uint32_t lightCount = ranges.back().end;
     const graph::BufferRef seen =
         pass.createBuffer("seen past fields", lightCount * frame.pixels.count() * sizeof(float), Use::StorageWrite);
-    pass.record([&pipeline = pipelineFor(structure, method, hasOutlines, hasBones), &knobs, fields, frame, g = *frame.g, seen,
-                 counted = counters, byBones](graph::Recorder& recorder) {
-        recorder.dispatch(pipeline,
-                          shader::FieldShade{.fields = byBones ? fields.shadowing : fields.block,
-                                             .area = frame.area,
-                                             .counters = recorder.address(counted),
-                                             .seen = recorder.address(seen),
-                                             .frame = frame.slot,
-                                             .depth = recorder.sampled(g.depth),
-                                             .normals = recorder.sampled(g.normals),
-                                             .cones = knobs.sdf.cones,
-                                             .cells = knobs.sdf.cells,
-                                             .rays = raysOf(knobs),
-                                             .tolerance = knobs.sdf.epsilon,
-                                             .pixelScale = static_cast<int>(frame.pixels.scale),
-                                             .litWidth = frame.pixels.extent.x,
-                                             .litHeight = frame.pixels.extent.y,
-                                             .albedo = byBones ? recorder.sampled(g.albedo) : 0,
-                                             .seenGroups = fields.block.groupCount,
-                                             .firstByBones = byBones.first,
-                                             .endByBones = byBones.end},
-                          frame.pixels.extent, {shader::kAreaGroupWidth, shader::kAreaGroupHeight});
+    pass.record([&pipeline = pipelineFor(frame, fields, byBones), shade = shadeOf(frame, fields, byBones), extent = frame.pixels.extent,
+                 g = *frame.g, seen, counted = counters, hasBones](graph::Recorder& recorder) {
+        shader::FieldShade made = shade;
+        made.counters = recorder.address(counted);
+        made.seen = recorder.address(seen);
+        made.depth = recorder.sampled(g.depth);
+        made.normals = recorder.sampled(g.normals);
+        made.albedo = hasBones ? recorder.sampled(g.albedo) : 0;
+        recorder.dispatch(pipeline, made, extent, {shader::kAreaGroupWidth, shader::kAreaGroupHeight});
     });
     return seen;
 }
