@@ -31,7 +31,7 @@ vec2 wayAmong(FieldsBlock fields, vec3 eye)
 {
     vec2 way = vec2(kFieldFarthestSeen, 0.0);
     for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        FieldGroupBlock group = fieldGroup(fields, g);
         float away = distance(group.centre, eye), radius = groupRadius(group);
         way = isLookedAt(fields, g) ? vec2(min(way.x, away - radius), max(way.y, away + radius)) : way;
     }

@@ -192,7 +192,7 @@ Survivors survivorsOfBatch(Receiver r)
 #ifdef FIELDS
     FieldsBlock fields = Fields(pc.fields).block;
     for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        FieldGroupBlock group = fieldGroup(fields, g);
         survivors = together(survivors, survivorsOfSphere(r, group.centre, groupRadius(group)));
     }
 #endif

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace antumbra::render {
 
@@ -198,29 +199,54 @@ float localRadius(const FieldStepBlock& step)
 /// It matters wherever one is: what has no end, and what takes away all beyond it.
 bool isEverywhere(const FieldStepBlock& step) { return step.shape == shader::kFieldPlane || step.operation == shader::kFieldIntersect; }
 
+bool takesAway(const FieldStepBlock& step) { return step.operation == shader::kFieldSubtract || step.operation == shader::kFieldIntersect; }
+
 bool isUnion(const FieldStepBlock& step) { return step.operation == shader::kFieldUnion; }
 
+/// About the shape, in its own space: half of the edges.
+vec3 localHalfEdges(const FieldStepBlock& step)
+{
+    const vec4& size = step.size;
+    switch (step.shape) {
+    case shader::kFieldSegment: return {size.y, size.x + size.y, size.y};
+    case shader::kFieldBox: return vec3(size) + size.w;
+    case shader::kFieldTorus: return {size.x + size.y, size.y, size.x + size.y};
+    case shader::kFieldCone: return {std::max(size.x, size.y), size.z, std::max(size.x, size.y)};
+    default: return vec3(kFieldUnbounded);
+    }
+}
+
+/// In the world, along its axes.
+Aabb boxOf(const FieldStepBlock& step)
+{
+    const mat3 worldFromLocal = glm::inverse(linearOf(step));
+    const vec3 half = localHalfEdges(step), centre = boundOf(step).centre;
+    const vec3 reach = glm::abs(worldFromLocal[0]) * half.x + glm::abs(worldFromLocal[1]) * half.y + glm::abs(worldFromLocal[2]) * half.z;
+    return {centre - reach, centre + reach};
+}
+
 // A step's distance is `scale` times the local one, and that is at least the way to the centre, which its transform stretches by no more
-// than `most`, less the local radius.
+// than `most`, less the local radius; outside of its box at least the way there.
 void boundGroup(FieldGroupBlock& group, std::span<const FieldStepBlock> steps)
 {
-    Aabb box;
     group.slope = 1;
-    for (const FieldStepBlock& step : steps) {
-        const FieldBound bound = boundOf(step);
-        box.add(bound.centre - bound.radius);
-        box.add(bound.centre + bound.radius);
-        group.slope = std::min(group.slope, step.scale / stretchOf(glm::inverse(linearOf(step))).most);
-    }
     if (isEverywhere(steps.front())) {
+        group.halfEdges = vec3(2 * kFieldUnbounded);
         group.reach = 2 * kFieldUnbounded;
         return;
+    }
+    Aabb box;
+    for (const FieldStepBlock& step : steps) {
+        box.add(boxOf(step));
+        group.slope = std::min(group.slope, step.scale / stretchOf(glm::inverse(linearOf(step))).most);
     }
     group.centre = box.centre();
     for (const FieldStepBlock& step : steps)
         group.reach = std::max(group.reach, group.slope * glm::distance(group.centre, boundOf(step).centre) +
                                                 step.scale * localRadius(step) + step.blend);
-    group.reach = group.reach * 1.00001f + 1e-6f; // rounding
+    const vec3 rounding = 1e-6f * (glm::abs(group.centre) + 1.0f);
+    group.halfEdges = 0.50001f * box.extent() + rounding;
+    group.reach = group.reach * 1.00001f + 1e-6f;
 }
 
 } // namespace
@@ -274,11 +300,19 @@ void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBl
                             isUnion(steps[i]) == isUnion(steps[i - 1]) &&
                             groups.back().endStep - groups.back().firstStep < shader::kFieldGroupSteps;
         if (!isOpen)
-            groups.push_back({.firstStep = i, .endStep = i});
+            groups.push_back({.firstStep = i, .endStep = i, .flags = steps[i].flags});
         groups.back().endStep = i + 1;
+        groups.back().flags |= takesAway(steps[i]) ? shader::kFieldTakesAway : 0u;
     }
-    for (FieldGroupBlock& group : groups)
-        boundGroup(group, steps.subspan(group.firstStep, group.endStep - group.firstStep));
+    float melt = 0;
+    for (FieldGroupBlock& group : std::views::reverse(groups)) {
+        const std::span<const FieldStepBlock> own = steps.subspan(group.firstStep, group.endStep - group.firstStep);
+        for (const FieldStepBlock& step : own)
+            melt = std::max(melt, step.blend);
+        boundGroup(group, own);
+        group.melt = melt;
+        melt = (group.flags & shader::kFieldBegins) != 0 ? 0 : melt;
+    }
 }
 
 void writeParts(std::span<const FieldStepBlock> steps, std::span<const FieldGroupBlock> groups, std::vector<FieldPart>& parts)

@@ -85,42 +85,54 @@ float fieldCombined(FieldStepBlock s, float before, float own)
     }
 }
 
+FieldGroupBlock fieldGroup(FieldsBlock fields, uint g) { return FieldGroups(fields.groups).group[g]; }
+
+// The i-th of what is written out.
+FieldStepBlock fieldStep(FieldsBlock fields, uint i) { return FieldSteps(fields.steps).step[i]; }
+
 // Of a sphere about all that the group holds and melts with, metres.
 float groupRadius(FieldGroupBlock group) { return group.reach / max(group.slope, 1.0e-6); }
 
 bool isLookedAt(FieldsBlock fields, uint g) { return (fields.skipped >> (g & 31u) & 1u) == 0u; }
 
-// Whether steps of the group can change the distance so far.
-bool mattersAt(FieldGroupBlock group, vec3 p, float so) { return group.slope * distance(p, group.centre) - group.reach < abs(so); }
+// Whether steps of the group can change the distance so far, where that is known to end at no more than `most`. What is farther by the width
+// over which things melt does not, nor what melts with that.
+bool mattersAt(FieldGroupBlock group, vec3 p, float so, float most)
+{
+    float outside = group.slope * length(max(abs(p - group.centre) - group.halfEdges, 0.0));
+    bool takesAway = (group.flags & kFieldTakesAway) != 0u;
+    return outside < abs(so) + group.melt && (takesAway || outside <= max(most, 0.0) + 2.5 * group.melt);
+}
 
-// Of all fields together; the walk through the steps passes by groups that are not looked at or do not matter: loops that go round for nobody,
-// which is what spares CPU devices the work. Written out, all steps are worked off: what they read is read once for all evaluations, which is
-// faster than to pass by any.
-float fieldDistance(FieldsBlock fields, vec3 p)
+// Of all fields together, where that is no more than `most`: it changes no faster than one goes, so who knows it nearby need not ask what is
+// farther. The walk through the steps passes by groups that are not looked at or do not matter: loops that go round for nobody, which is what
+// spares CPU devices the work. Written out, all steps are worked off: what they read is read once for all evaluations, which is faster than to
+// pass by any.
+float fieldDistance(FieldsBlock fields, vec3 p, float most)
 {
     ++fieldEvaluations;
     float whole = kFieldFar, so = kFieldFar;
-    FieldSteps steps = FieldSteps(fields.steps);
-    FieldGroups groups = FieldGroups(fields.groups);
 #ifdef FIELD_STRUCTURE
 #define FIELD_BEGINS whole = min(whole, so); so = kFieldFar;
-#define FIELD_STEP(i, operation, share, distance) so = operation(so, distance(steps.step[i], p), steps.step[i].blend);
+#define FIELD_STEP(i, operation, share, distance) so = operation(so, distance(fieldStep(fields, i), p), fieldStep(fields, i).blend);
     FIELD_STRUCTURE
 #undef FIELD_BEGINS
 #undef FIELD_STEP
 #else
+    most = most * 1.0001 + 1.0e-5; // rounding
     for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = groups.group[g];
-        uint first = group.firstStep, end = group.endStep;
-        bool begins = (steps.step[first].flags & kFieldBegins) != 0u;
+        FieldGroupBlock group = fieldGroup(fields, g);
+        bool begins = (group.flags & kFieldBegins) != 0u;
         whole = begins ? min(whole, so) : whole;
         so = begins ? kFieldFar : so;
-        end = isLookedAt(fields, g) && mattersAt(group, p, so) ? end : first;
-        for (uint i = first; i < end; ++i)
-            so = fieldCombined(steps.step[i], so, fieldShape(steps.step[i], p));
+        uint end = isLookedAt(fields, g) && mattersAt(group, p, so, min(most, whole)) ? group.endStep : group.firstStep;
+        for (uint i = group.firstStep; i < end; ++i)
+            so = fieldCombined(fieldStep(fields, i), so, fieldShape(fieldStep(fields, i), p));
     }
 #endif
     return min(whole, so);
 }
+
+float fieldDistance(FieldsBlock fields, vec3 p) { return fieldDistance(fields, p, kFieldFar); }
 
 #endif

@@ -64,7 +64,7 @@ FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanc
     const float kRelaxed = 1.8;
     float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t), leastInGap = 1.0;
     FieldMarch march = FieldMarch(min(ratio, 1.0), t, f, way, FieldGap(vec2(t), vec2(f)));
-    float level = march.least - tolerance, relaxation = kRelaxed;
+    float level = march.least - tolerance, relaxation = kRelaxed, last = kFieldFar; // `distanceFrom` may be of other groups
     bool isMet = ratio < 1.0, isInside = isMet, isDone = t >= way.y || march.least <= -1.0;
     for (uint i = 0u; i < kFieldMarchSteps && !isDone; ++i) {
         float safe = max((f - level * radiusAt(cone, t)) / (1.0 + level * cone.slope), 1.0e-5 + 1.0e-4 * t);
@@ -72,7 +72,7 @@ FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanc
         if (isDone)
             break;
         float next = min(t + relaxation * safe, way.y);
-        float g = fieldDistance(fields, cone.apex + cone.axis * next);
+        float g = fieldDistance(fields, cone.apex + cone.axis * next, last + next - t);
         FieldGap gap = FieldGap(vec2(t, next), vec2(f, g));
         float inGap = gapLeast(cone, gap);
         ratio = g / radiusAt(cone, next);
@@ -97,6 +97,7 @@ FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanc
         isInside = isIn;
         t = next;
         f = g;
+        last = g;
     }
     march.span.y = isInside ? way.y : march.span.y;
     return march;
@@ -146,7 +147,7 @@ FieldsBlock fieldsInCone(FieldsBlock fields, FieldCone cone, float end)
     float cosine = sqrt((1.0 - cone.slope) * (1.0 + cone.slope));
     uint near = 0u;
     for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        FieldGroupBlock group = fieldGroup(fields, g);
         vec3 to = group.centre - cone.apex;
         float along = dot(to, cone.axis), aside = sqrt(max(dot(to, to) - along * along, 0.0));
         // The ball in the cone whose surface is nearest: where the way there is at right angles to the cone's side.
@@ -184,8 +185,10 @@ FieldSlope slopeAcross(FieldsBlock fields, vec3 p, vec3 axis, float distanceHere
 {
     mat3 frame = tangentFrame(axis);
     vec2 change[2] = vec2[2](vec2(0.0), vec2(0.0));
-    for (int i = 0; i < 4; ++i)
-        change[i >> 1][i & 1] = (fieldDistance(fields, p + frame[i & 1] * (i < 2 ? nudge : -nudge)) - distanceHere) / nudge;
+    for (int i = 0; i < 4; ++i) {
+        float there = fieldDistance(fields, p + frame[i & 1] * (i < 2 ? nudge : -nudge), distanceHere + nudge);
+        change[i >> 1][i & 1] = (there - distanceHere) / nudge;
+    }
     vec2 across = 0.5 * (change[0] - change[1]);
     return FieldSlope(frame[0] * across.x + frame[1] * across.y, clamp(length(max(abs(change[0]), abs(change[1]))), 0.05, 1.0));
 }

@@ -12,12 +12,13 @@ float distanceToField(FieldsBlock fields, vec3 origin, vec3 direction, float far
 {
     vec2 way = vec2(0.0, min(far, kFieldFarthestSeen));
     fields = fieldsAlong(fields, origin, direction, 0.0, way);
-    float t = way.x;
+    float t = way.x, step = 0.0, last = kFieldFar;
     bool isMet = false;
     for (uint i = 0u; i < 4u * kFieldTraceSteps && t < way.y && !isMet; ++i) {
-        float f = fieldDistance(fields, origin + direction * t);
-        isMet = f < 0.0;
-        t += isMet ? 0.0 : max(f, 1.0e-5 + 1.0e-4 * t);
+        last = fieldDistance(fields, origin + direction * t, last + step);
+        isMet = last < 0.0;
+        step = isMet ? 0.0 : max(last, 1.0e-5 + 1.0e-4 * t);
+        t += step;
     }
     return isMet ? t : -1.0;
 }

@@ -16,7 +16,7 @@ FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, float w
     vec2 narrowed = vec2(way.y, way.x);
     uint near = 0u;
     for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        FieldGroupBlock group = fieldGroup(fields, g);
         vec3 to = group.centre - origin;
         float along = dot(to, direction), radius = groupRadius(group) + width * max(along, 0.0);
         vec3 aside = to - direction * along;
@@ -36,10 +36,11 @@ FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, float w
 FieldHit traceField(FieldsBlock fields, vec3 origin, vec3 direction, float from, float to, float width)
 {
     const float kRelaxed = 1.5;
-    float t = from, before = 0.0, step = 0.0, relaxation = kRelaxed;
+    float t = from, before = 0.0, step = 0.0, relaxation = kRelaxed, last = kFieldFar;
     FieldHit hit = FieldHit(-1.0, 0u);
     for (bool isDone = !(from < to); !isDone && hit.steps < kFieldTraceSteps; ++hit.steps) {
-        float f = fieldDistance(fields, origin + direction * t);
+        float f = fieldDistance(fields, origin + direction * t, last + abs(step));
+        last = f;
         // The ball before reaches to where it began plus `before`; if this one does not touch it, something may lie between.
         bool isPast = relaxation > 1.0 && abs(f) + before < step;
         bool isMet = !isPast && f < width * t;
@@ -96,32 +97,30 @@ FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
 {
     FieldSurfaceBlock none = FieldSurfaceBlock(vec3(0.0), 1.0, 0.0, 0.0), shown = none, made = none;
     float whole = kFieldFar, so = kFieldFar, own;
-    FieldSteps steps = FieldSteps(fields.steps);
-    FieldSurfaces surfaces = FieldSurfaces(fields.surfaces);
 #ifdef FIELD_STRUCTURE
 #define FIELD_BEGINS shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0); whole = min(whole, so); so = kFieldFar;
 #define FIELD_STEP(i, operation, share, distance) \
-    own = distance(steps.step[i], p); \
-    made = mixedSurface(made, surfaces.surface[i], share(so, own, steps.step[i].blend)); \
-    so = operation(so, own, steps.step[i].blend);
+    own = distance(fieldStep(fields, i), p); \
+    made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], share(so, own, fieldStep(fields, i).blend)); \
+    so = operation(so, own, fieldStep(fields, i).blend);
     FIELD_STRUCTURE
 #undef FIELD_BEGINS
 #undef FIELD_STEP
 #else
     uint groupCount = isWanted ? fields.groupCount : 0u;
     for (uint g = 0u; g < groupCount; ++g) {
-        FieldGroupBlock group = FieldGroups(fields.groups).group[g];
+        FieldGroupBlock group = fieldGroup(fields, g);
         uint first = group.firstStep, end = group.endStep;
-        if ((steps.step[first].flags & kFieldBegins) != 0u) {
+        if ((group.flags & kFieldBegins) != 0u) {
             shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0);
             whole = min(whole, so);
             so = kFieldFar;
         }
-        end = isLookedAt(fields, g) && mattersAt(group, p, so) ? end : first;
+        end = isLookedAt(fields, g) && mattersAt(group, p, so, kFieldFar) ? end : first;
         for (uint i = first; i < end; ++i) {
-            FieldStepBlock s = steps.step[i];
+            FieldStepBlock s = fieldStep(fields, i);
             own = fieldShape(s, p);
-            made = mixedSurface(made, surfaces.surface[i], ownShare(s, so, own));
+            made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], ownShare(s, so, own));
             so = fieldCombined(s, so, own);
         }
     }

@@ -16,6 +16,8 @@ const uint kFieldSmoothUnion = 3u;
 
 // The first step of a field: what the steps before it made stands beside it.
 const uint kFieldBegins = 1u;
+// Of a group: steps that take away, and so change distances inside solids.
+const uint kFieldTakesAway = 2u;
 
 // A step: a shape, and what becomes of the distance so far.
 struct FieldStepBlock
@@ -31,25 +33,28 @@ struct FieldStepBlock
 
 const uint kFieldGroupSteps = 4u; // at most
 
-// Steps in a row of one field that matter only near them: the distance of each is at least slope * |p - centre| - reach, and none of them
-// changes a distance that is less than that, inside a solid as outside.
+// Steps in a row of one field that matter only near them: the distance of each is at least slope * |p - centre| - reach, and, outside of a box,
+// slope * its distance. None of them changes a distance that is less than that, inside a solid as outside, but for how far it melts.
 struct FieldGroupBlock
 {
     vec3 centre;
     float reach; // metres; how far smooth unions melt is added
+    vec3 halfEdges; // of the box about the centre, metres
+    float melt; // metres, that these steps and later ones of the field blend over at most
     float slope;
     uint firstStep;
     uint endStep;
+    uint flags; // of its first step, and kFieldTakesAway
 };
 
-// All fields of a frame.
+// Fields that are met together: groups in a row, and their steps.
 struct FieldsBlock
 {
     uint64_t steps; // FieldStepBlock[]
     uint64_t groups; // FieldGroupBlock[groupCount]
     uint64_t surfaces; // FieldSurfaceBlock[], one a step
     uint groupCount;
-    uint skipped; // groups that are not looked at: bit g % 32 for group g
+    uint skipped; // groups that are not looked at: bit g % 32 for the g-th of them
 };
 
 // What light does on a step's surface.

@@ -50,6 +50,8 @@ float valueOf(In x)
 {
 #if defined(FIELD_DISTANCE)
     return fieldDistance(x.fields, x.position);
+#elif defined(FIELD_DISTANCE_WITHIN)
+    return fieldDistance(x.fields, x.position, x.radius);
 #elif defined(QUILEZ)
     return quilezVisibility(x.fields, x.position, x.centre, x.radius);
 #elif defined(AALTONEN)

@@ -32,6 +32,27 @@ TEST_F(Field, DistancesMatchDouble)
     }
 }
 
+TEST_F(Field, DistancesAreTheSameWhereItIsKnownThatTheyAreNoMore)
+{
+    constexpr uint32_t kFields = 300, kPoints = 40;
+    RandomInputs random(13);
+    std::vector<FieldSteps> fields;
+    for (uint32_t i = 0; i < kFields; ++i)
+        fields.push_back(randomField(random, 1 + random.index(i % 3 == 0 ? 200 : 9)));
+    const FieldUpload uploaded(device(), fields);
+    std::vector<FieldAsk> asks;
+    std::vector<double> expected;
+    for (uint32_t i = 0; i < kFields * kPoints; ++i) {
+        const dvec3 point = random.direction() * random.logUniform(0.1, 20);
+        expected.push_back(render::fieldDistance(fields[i / kPoints], dvec3(vec3(point))));
+        const double more = i % 2 == 0 ? 0 : random.logUniform(1e-4, 1);
+        asks.push_back({.position = vec3(point), .radius = static_cast<float>(expected.back() + more), .fields = uploaded[i / kPoints]});
+    }
+    const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, "FIELD_DISTANCE_WITHIN", asks);
+    for (size_t i = 0; i < asks.size(); ++i)
+        ASSERT_NEAR(said[i].value, expected[i], 4e-6 * (1 + std::abs(expected[i]))) << "field " << i / kPoints << " point " << i % kPoints;
+}
+
 TEST_F(Field, NothingIsFarAway)
 {
     const FieldUpload uploaded(device(), {FieldSteps{}});

@@ -314,9 +314,12 @@ void echo(FieldGroupBlock b)
 {
     put(b.centre);
     put(b.reach);
+    put(b.halfEdges);
+    put(b.melt);
     put(b.slope);
     put(b.firstStep);
     put(b.endStep);
+    put(b.flags);
 }
 
 #elif defined(FIELDS_BLOCK)

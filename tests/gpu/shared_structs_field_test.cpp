@@ -13,8 +13,9 @@ TEST_F(SharedStructs, FieldStepBlock)
 
 TEST_F(SharedStructs, FieldGroupBlock)
 {
-    expectSameLayout<shader::FieldGroupBlock>("FIELD_GROUP_BLOCK",
-                                              [](const auto& b) { return wordsOf(b.centre, b.reach, b.slope, b.firstStep, b.endStep); });
+    expectSameLayout<shader::FieldGroupBlock>("FIELD_GROUP_BLOCK", [](const auto& b) {
+        return wordsOf(b.centre, b.reach, b.halfEdges, b.melt, b.slope, b.firstStep, b.endStep, b.flags);
+    });
 }
 
 TEST_F(SharedStructs, FieldsBlock)

@@ -126,6 +126,30 @@ TEST(FieldSteps, BoundsHoldTheirShapes)
     EXPECT_GT(inside, 1000);
 }
 
+TEST(FieldSteps, BoxesOfGroupsHoldTheirSteps)
+{
+    RandomInputs random(6);
+    std::vector<shader::FieldGroupBlock> groups;
+    int outside = 0;
+    for (int i = 0; i < 300; ++i) {
+        const FieldSteps field = randomField(random, 1 + random.index(30));
+        render::writeGroups(field, groups);
+        for (const shader::FieldGroupBlock& group : groups)
+            for (int j = 0; j < 30 && group.reach < render::kFieldUnbounded; ++j) {
+                const dvec3 point = dvec3(group.centre) + random.direction() * random.uniform(0, 2.0 * group.reach);
+                const double away = glm::length(glm::max(glm::abs(point - dvec3(group.centre)) - dvec3(group.halfEdges), 0.0));
+                outside += away > 0 ? 1 : 0;
+                for (uint32_t step = group.firstStep; step < group.endStep && away > 0; ++step) {
+                    shader::FieldStepBlock alone = field[step];
+                    alone.operation = shader::kFieldUnion;
+                    ASSERT_GE(fieldDistance(std::span(&alone, 1), point), group.slope * away - 1e-6 * (1 + away)) << i << ' ' << step;
+                    ASSERT_LE(alone.blend, group.melt);
+                }
+            }
+    }
+    EXPECT_GT(outside, 1000);
+}
+
 TEST(FieldSteps, GroupsHoldEachStepOnceInOrder)
 {
     RandomInputs random(4);
