@@ -11,7 +11,7 @@ layout(buffer_reference, scalar) readonly buffer Fields { FieldsBlock block; };
 float distanceToField(FieldsBlock fields, vec3 origin, vec3 direction, float far)
 {
     vec2 way = vec2(0.0, min(far, kFieldFarthestSeen));
-    fields = fieldsAlong(fields, origin, direction, 0.0, way);
+    fields = fieldsAlong(fields, origin, direction, way);
     float t = way.x, step = 0.0, last = kFieldFar;
     bool isMet = false;
     for (uint i = 0u; i < 4u * kFieldTraceSteps && t < way.y && !isMet; ++i) {

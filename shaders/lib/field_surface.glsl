@@ -10,23 +10,28 @@ struct FieldHit
     uint steps;
 };
 
-// Looks at the groups alone that the ray meets, a metre of whose way is `width` metres wide, and narrows its way to where they are.
-FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, float width, inout vec2 way)
+// Where a ray is in the box about a group and what it melts with: from x to y metres; nowhere where x is not less than y.
+vec2 spanInGroup(FieldGroupBlock group, vec3 origin, vec3 direction)
+{
+    vec3 inverse = 1.0 / mix(direction, vec3(1.0e-9), lessThan(abs(direction), vec3(1.0e-9))); // finite: 0 times infinity is no number
+    vec3 middle = (group.centre - origin) * inverse, reach = (group.halfEdges + group.melt / group.slope) * abs(inverse);
+    vec3 enters = middle - reach, leaves = middle + reach;
+    return vec2(max(enters.x, max(enters.y, enters.z)), min(leaves.x, min(leaves.y, leaves.z)));
+}
+
+// Looks at the groups alone that the ray meets, and narrows its way to where they are.
+FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, inout vec2 way)
 {
     vec2 narrowed = vec2(way.y, way.x);
     uint near = 0u;
     for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = fieldGroup(fields, g);
-        vec3 to = group.centre - origin;
-        float along = dot(to, direction), radius = groupRadius(group) + width * max(along, 0.0);
-        vec3 aside = to - direction * along;
-        float half2 = radius * radius - dot(aside, aside);
-        float halfSpan = sqrt(max(half2, 0.0));
-        bool isMet = half2 > 0.0 && along + halfSpan > way.x && along - halfSpan < way.y;
+        vec2 span = spanInGroup(fieldGroup(fields, g), origin, direction);
+        span = vec2(max(span.x, way.x), min(span.y, way.y));
+        bool isMet = span.x < span.y;
         near |= isMet ? 1u << (g & 31u) : 0u;
-        narrowed = isMet ? vec2(min(narrowed.x, along - halfSpan), max(narrowed.y, along + halfSpan)) : narrowed;
+        narrowed = isMet ? vec2(min(narrowed.x, span.x), max(narrowed.y, span.y)) : narrowed;
     }
-    way = vec2(max(way.x, narrowed.x), min(way.y, narrowed.y));
+    way = narrowed;
     fields.skipped |= ~near;
     return fields;
 }
