@@ -26,7 +26,7 @@ struct PanelInput
     const render::MemoryReport& memory;
     const QualityControl* quality = nullptr; // where a frame time is to be held
     std::span<const KeyHint> keys;
-    std::string_view message; // of a shader or a file that could not be loaded; shown while it is not empty
+    std::string_view message; // of what is amiss or under way; shown while it is not empty
 };
 
 class Panels

@@ -13,6 +13,7 @@ namespace antumbra::app {
 
 namespace {
 
+constexpr std::string_view kLateFields = "compiling changed distance fields; the last ones stay meanwhile";
 constexpr size_t kViewCount = static_cast<size_t>(render::ViewMode::Reference) + 1;
 
 std::vector<KeyHint> hintsOf(const std::vector<KeyLine>& lines)
@@ -118,7 +119,7 @@ void Playback::buildOverlay(float seconds, const Pointer* pointer)
                    .memory = memory,
                    .quality = quality(),
                    .keys = showsKeys_ ? std::span<const KeyHint>(keyHints_) : std::span<const KeyHint>(),
-                   .message = {}},
+                   .message = report.hasLateFields ? kLateFields : std::string_view()},
                   knobs_, splitColumn_);
     const bool isProbed = knobs_.area.isProbed && pointer != nullptr && !holdsPointer();
     const ivec2 pixel = isProbed ? ivec2(pointer->position) : ivec2(-1);

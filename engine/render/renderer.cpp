@@ -153,6 +153,7 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     const Baked baked = prt_.declare(graph_, view, frame, blocks_.newest());
     const Posed posed = posing_.declare(graph_, view, scene_);
     const FieldFrame fields = gbuffer_.writeFields(view);
+    hasLateFields_ = fields.isLate;
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, fields, baked, posed, extent(),
                                        {.all = captures_ != 0, .steps = isCaptured(Aov::Steps)});
     const Traced traced = occlusion_.declare(graph_, view, frame, scene_, fields, baked, g, posed, counters);
@@ -248,7 +249,8 @@ FrameReport Renderer::report() const
             .absent = plan_.absent,
             .frameMilliseconds = executor_.frameMilliseconds(),
             .counters = counters_.newest(),
-            .frame = device_->frameNumber()};
+            .frame = device_->frameNumber(),
+            .hasLateFields = hasLateFields_};
 }
 
 MemoryReport Renderer::memory() const

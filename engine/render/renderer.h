@@ -31,7 +31,8 @@ struct FrameReport
     std::span<const graph::AbsentPass> absent; // of the newest plan: culled and skipped, with reasons
     std::optional<double> frameMilliseconds;   // first pass to last
     shader::CounterBlock counters;
-    uint64_t frame = 0; // frames finished so far
+    uint64_t frame = 0;         // frames finished so far
+    bool hasLateFields = false; // FieldFrame::isLate, of the newest frame declared
 };
 
 struct MemoryReport
@@ -101,6 +102,7 @@ private:
     gpu::Image picture_;    // Rgba8Unorm, sRGB-encoded
     uint32_t captures_ = 0; // bits of Aov
     float nearMetres_ = 0;  // of the newest frame, for reading depth back
+    bool hasLateFields_ = false;
     Readback readbacks_[kAovCount];
 };
 

@@ -185,11 +185,13 @@ TEST_F(FieldPictures, StayUntilWhatANewStructureTakesIsMade)
     const std::vector<render::FieldStepDraw> ball = shown.view().fieldSteps;
     shown.view().fieldSteps = changed.view().fieldSteps;
     EXPECT_EQ(shown.capture(Aov::Irradiance).values, before.values);
+    EXPECT_TRUE(shown.renderer().report().hasLateFields);
     const auto start = std::chrono::steady_clock::now();
     scene::ImageF now = before;
     while (now.values == before.values && std::chrono::steady_clock::now() - start < std::chrono::seconds(60))
         now = shown.capture(Aov::Irradiance);
     EXPECT_EQ(now.values, after.values);
+    EXPECT_FALSE(shown.renderer().report().hasLateFields);
     // What was made once is there at once.
     shown.view().fieldSteps = ball;
     EXPECT_EQ(shown.capture(Aov::Irradiance).values, before.values);
