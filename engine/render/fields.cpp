@@ -18,18 +18,18 @@ struct Tiles
     uvec2 count;
 };
 
-/// That may show what the groups hold: those about the boxes around their spheres, or all where a box reaches behind the eye.
+/// That may show what the groups hold: those about their boxes and what they melt with, or all where a box reaches behind the eye.
 Tiles tilesOf(std::span<const shader::FieldGroupBlock> groups, const mat4& clipFromWorld, uvec2 extent)
 {
     constexpr float kTileSize = shader::kFieldTileSize;
     const uvec2 all = (extent + shader::kFieldTileSize - 1u) / shader::kFieldTileSize;
     vec2 lowest{1}, highest{-1}; // in clip space, within the picture
     for (const shader::FieldGroupBlock& group : groups) {
-        const float radius = group.reach / std::max(group.slope, 1e-6f);
+        const vec3 half = group.halfEdges + group.melt / group.slope;
         for (int corner = 0; corner < 8; ++corner) {
             const vec3 towards = 2.0f * vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f;
-            const vec4 clip = clipFromWorld * vec4(group.centre + radius * towards, 1);
-            if (!(clip.w > 1e-3f * radius)) // so that rounding does not matter
+            const vec4 clip = clipFromWorld * vec4(group.centre + half * towards, 1);
+            if (!(clip.w > 1e-3f * glm::length(half))) // so that rounding does not matter
                 return {uvec2(0), all};
             lowest = glm::min(lowest, vec2(clip) / clip.w);
             highest = glm::max(highest, vec2(clip) / clip.w);
