@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 namespace antumbra::app {
 
@@ -178,6 +179,7 @@ void makeOccluders(ecs::World& world, Assets& assets, const std::string& subject
 void makeBones(ecs::World& world, Assets& assets, const std::string& subject)
 {
     std::vector<std::pair<ecs::Entity, scene::FieldCapsules>> made;
+    std::map<uint32_t, scene::FieldCapsules> ofModels;
     for (auto [entity, primitive, drawable, dynamic] :
          ecs::Each<ecs::Entity, const scene::SDFPrimitive, ecs::Maybe<const scene::Drawable>, ecs::Maybe<const scene::DynamicSkinned>>(
              world))
@@ -186,10 +188,13 @@ void makeBones(ecs::World& world, Assets& assets, const std::string& subject)
             continue;
         if (drawable == nullptr || dynamic == nullptr)
             throw Error("an SDFPrimitive of shape bones is not DynamicSkinned with a mesh", subject);
-        const std::vector<scene::BoneCapsule> capsules = scene::boneCapsules(assets.models[drawable->model]);
-        made.emplace_back(entity,
-                          scene::FieldCapsules{static_cast<uint32_t>(assets.capsules.size()), static_cast<uint32_t>(capsules.size())});
-        assets.capsules.insert(assets.capsules.end(), capsules.begin(), capsules.end());
+        const auto [range, isNew] = ofModels.try_emplace(drawable->model);
+        if (isNew) {
+            const std::vector<scene::BoneCapsule> capsules = scene::boneCapsules(assets.models[drawable->model]);
+            range->second = {static_cast<uint32_t>(assets.capsules.size()), static_cast<uint32_t>(capsules.size())};
+            assets.capsules.insert(assets.capsules.end(), capsules.begin(), capsules.end());
+        }
+        made.emplace_back(entity, range->second);
     }
     for (const auto& [entity, capsules] : made)
         world.add(entity, capsules);

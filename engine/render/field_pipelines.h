@@ -4,6 +4,7 @@
 
 #include "gpu/pipeline.h"
 
+#include <algorithm>
 #include <array>
 #include <future>
 #include <list>
@@ -21,6 +22,8 @@ struct FieldShader
     std::array<gpu::Format, 5> colorFormats{};        // of .frag; the first undefined one ends them
     gpu::Format depthFormat = gpu::Format::Undefined; // of .frag
 
+    void define(std::string_view name, int value = 1) { *std::ranges::find(defines, gpu::ShaderDefine{}) = {name, value}; }
+    void addColor(gpu::Format format) { *std::ranges::find(colorFormats, gpu::Format::Undefined) = format; }
     [[nodiscard]] bool isDrawn() const { return file.ends_with(".frag"); }
 
     friend bool operator==(const FieldShader&, const FieldShader&) = default;

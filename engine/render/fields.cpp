@@ -134,16 +134,8 @@ FieldFrame Fields::copyShown()
             .pipelines = &pipelines_};
 }
 
-void Fields::prepare(const Look& look)
+void Fields::prepare(const FieldShader& shader)
 {
-    FieldShader shader{.file = "field.frag", .depthFormat = look.depthFormat};
-    std::ranges::copy(look.colorFormats, shader.colorFormats.begin());
-    auto define = shader.defines.begin();
-    for (const auto& [name, isOn] :
-         {std::pair(look.firstTerm, !look.firstTerm.empty()), std::pair<std::string_view, bool>("KEEPS_MATERIAL", look.keepsMaterial),
-          std::pair<std::string_view, bool>("KEEPS_STEPS", look.keepsSteps)})
-        if (isOn)
-            (define++)->name = name;
     for (Part& part : shown_.drawn())
         part.pipeline = &pipelines_.of(shader, part.structure);
 }

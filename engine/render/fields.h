@@ -35,17 +35,8 @@ public:
     /// Between Device::beginFrame and endFrame. Keeps its memory.
     FieldFrame write(const FrameView& view);
 
-    /// How fields are drawn into a G-buffer.
-    struct Look
-    {
-        std::string_view firstTerm; // a define of field.frag; empty: the environment's
-        std::span<const gpu::Format> colorFormats;
-        gpu::Format depthFormat;
-        bool keepsMaterial;
-        bool keepsSteps;
-    };
-    /// Makes what draw() takes, where it is not there yet.
-    void prepare(const Look& look);
+    /// Makes what draw() takes, where it is not there yet: `shader` is of field.frag.
+    void prepare(const FieldShader& shader);
     /// Of the frame that was written and prepared last. Part by part: a ray then meets the steps of what is near it alone.
     void draw(graph::Recorder& recorder, const FrameView& view, uint32_t frame, uvec2 extent) const;
 

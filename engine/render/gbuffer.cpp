@@ -102,13 +102,21 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
 
 void GBufferSystem::prepareFields(const FrameView& view, bool keepsSteps)
 {
-    std::vector formats{kNormalFormat, kAlbedoFormat, kIrradianceFormat};
-    if (keepsMaterial_)
-        formats.push_back(kMaterialFormat);
-    if (keepsSteps)
-        formats.push_back(kStepsFormat);
-    const std::string_view firstTerm = !view.hasEnvironment() ? "DARK" : view.shownBake() != nullptr ? "LOCAL_LIGHT" : "";
-    fields_.prepare({firstTerm, formats, gpu::Format::Depth32Float, keepsMaterial_, keepsSteps});
+    FieldShader shader{
+        .file = "field.frag", .colorFormats = {kNormalFormat, kAlbedoFormat, kIrradianceFormat}, .depthFormat = gpu::Format::Depth32Float};
+    if (!view.hasEnvironment())
+        shader.define("DARK");
+    else if (view.shownBake() != nullptr)
+        shader.define("LOCAL_LIGHT");
+    if (keepsMaterial_) {
+        shader.define("KEEPS_MATERIAL");
+        shader.addColor(kMaterialFormat);
+    }
+    if (keepsSteps) {
+        shader.define("KEEPS_STEPS");
+        shader.addColor(kStepsFormat);
+    }
+    fields_.prepare(shader);
 }
 
 bool GBufferSystem::isGlossy(const FrameView& view, const GpuScene& scene)

@@ -64,7 +64,7 @@ std::string nameOf(const testing::TestParamInfo<SteadyTest::ParamType>& test)
     return std::string(scene) + (showsOverlay ? "WithOverlay" : "WithoutOverlay");
 }
 
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutOverlay, SteadyTest, testing::Combine(testing::Values("plaza", "stage"), testing::Bool()), nameOf);
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutOverlay, SteadyTest, testing::Combine(testing::Values("plaza", "stage", "garden"), testing::Bool()), nameOf);
 
 } // namespace
 } // namespace antumbra::app

@@ -72,8 +72,8 @@ TEST_F(BoneShadows, AreNearThoseOfTheMesh)
                  with = rmse(bones.irradiance, truth.irradiance, surface) / light;
     RecordProperty("without", std::to_string(without));
     RecordProperty("with", std::to_string(with));
-    EXPECT_LT(with, 0.1);
-    EXPECT_GT(without, 3 * with);
+    EXPECT_LT(with, 0.05);
+    EXPECT_GT(without, 4 * with);
     EXPECT_EQ(bones.depth.values, open.depth.values) << "bones are seen";
 }
 

@@ -1,5 +1,7 @@
 #include "render/shadow/sdf.h"
 
+#include "render/shadow/area_pipelines.h"
+
 #include <algorithm>
 
 namespace antumbra::render {
@@ -7,7 +9,6 @@ namespace antumbra::render {
 namespace {
 
 using graph::Use;
-using scene::LightShadow;
 
 constexpr uint32_t kReferenceRays = 1024; // where reference.samples does not say
 
@@ -30,11 +31,6 @@ uint32_t raysOf(const Knobs& knobs)
     return knobs.reference.samples > 0 ? knobs.reference.samples : kReferenceRays;
 }
 
-bool goesByBones(const AreaLightRange& range)
-{
-    return range.shadow == LightShadow::Analytic || range.shadow == LightShadow::Triangles || range.shadow == LightShadow::None;
-}
-
 /// Lights [first, end) that what stands for characters hides: rays to the others meet the meshes.
 struct BoneLights
 {
@@ -51,23 +47,21 @@ BoneLights boneLightsOf(const FieldFrame& fields, std::span<const AreaLightRange
     if (!fields.hasBones())
         return lights;
     for (const AreaLightRange& range : ranges) // those that go by bones stand together
-        if (goesByBones(range))
+        if (!traces(range.shadow) && !isShare(range.shadow))
             lights = {lights ? lights.first : range.first, range.end};
     lights.isAll = lights.end - lights.first == ranges.back().end;
     return lights;
 }
 
-bool findsRays(const AreaLightRange& range) { return range.shadow == LightShadow::Traced || range.shadow == LightShadow::Reference; }
-
 const gpu::Pipeline& pipelineFor(const LitFrame& frame, const FieldFrame& fields, const BoneLights& byBones)
 {
     const uint32_t method = methodOf(frame.view->knobs.sdf.shadow);
-    FieldShader shader{.file = "field_shade.comp", .defines = {gpu::ShaderDefine{"METHOD", static_cast<int>(method)}}};
-    size_t count = 1;
+    FieldShader shader{.file = "field_shade.comp"};
+    shader.define("METHOD", static_cast<int>(method));
     if (method == shader::kFieldSubCones && !std::ranges::all_of(frame.view->areaLights, &AreaLightDraw::isSphere))
-        shader.defines[count++].name = "OUTLINES";
+        shader.define("OUTLINES");
     if (byBones)
-        shader.defines[count++].name = "BONES";
+        shader.define("BONES");
     // Written out, all lights meet the same steps.
     return fields.pipelines->of(shader, !fields.hasBones() || byBones.isAll ? fields.structure : "");
 }
@@ -101,7 +95,7 @@ graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& fr
     const Knobs& knobs = frame.view->knobs;
     const BoneLights byBones = boneLightsOf(fields, ranges);
     const bool hasBones = static_cast<bool>(byBones);
-    if ((!fields && !hasBones) || knobs.sdf.shadow == FieldShadow::None || std::ranges::all_of(ranges, findsRays)) {
+    if ((!fields && !hasBones) || knobs.sdf.shadow == FieldShadow::None || std::ranges::all_of(ranges, traces, &AreaLightRange::shadow)) {
         skipFieldShadow(graph, !fields && !hasBones                    ? "no SDFPrimitive in the scene"
                                : knobs.sdf.shadow == FieldShadow::None ? "sdf.shadow is none"
                                                                        : "rays of area.shadow meet distance fields");
