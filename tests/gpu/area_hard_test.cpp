@@ -15,7 +15,7 @@ namespace antumbra {
 namespace {
 
 constexpr uint32_t kOrdinaryCount = 6000, kMillion = 1000000; // 30 categories of 6000, each twice, take a minute on two cores
-constexpr uint32_t kBatch = 1024;                             // problems in memory at one time
+constexpr uint32_t kBatch = 8192;                             // problems in memory at one time
 
 // A jitter of a millionth turns directions by some millionths; the narrowest lobes enlarge that to 1e-4.
 constexpr double kMostChange = 1e-3;

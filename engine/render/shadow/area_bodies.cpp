@@ -57,6 +57,7 @@ void AreaBodies::addOccluders(const FrameView& view)
         grow(sizes_.silhouetteEdges, part.body.vertices.size() + 1);
         grow(sizes_.faces, part.body.faces.size());
     }
+    grow(sizes_.occluders, owners_.size());
 }
 
 VkDeviceAddress AreaBodies::write(const FrameView& view, uint32_t tilesAcross, VkDeviceAddress fields)

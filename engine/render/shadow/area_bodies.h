@@ -17,6 +17,7 @@ struct AreaSizes
     uint32_t lightVertices = 4;   // of a light's body
     uint32_t silhouetteEdges = 4; // of one occluder seen from a point
     uint32_t faces = 1;           // of a body
+    uint32_t occluders = 1;       // that may stand before a light
 
     friend bool operator==(const AreaSizes&, const AreaSizes&) = default;
 };

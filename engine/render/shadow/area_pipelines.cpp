@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace antumbra::render {
 
@@ -17,6 +18,7 @@ constexpr uint32_t kTriangleEdges = 4;    // one is made where the light's plane
 constexpr uint32_t kCutsAPolygon = 12;    // corners that it may gain
 constexpr uint32_t kMostPolygonCorners = 64;
 constexpr uint32_t kMostSilhouetteEdges = 64;
+constexpr uint32_t kMostThreadBytes = 14336; // what NVIDIA's driver 580 compiles ends before 16 KiB a thread, temporaries counted in
 
 int shaderShadowOf(LightShadow shadow)
 {
@@ -25,39 +27,66 @@ int shaderShadowOf(LightShadow shadow)
                                                                              : shader::kAreaAnalytic);
 }
 
-/// Few different sizes, so that few pipelines are made as lights come and go.
-AreaSizes rounded(const AreaSizes& sizes)
+AreaSizes ofBodies(AreaSizes sizes)
 {
-    return {.isPlanar = sizes.isPlanar,
-            .outlineCorners = std::min(std::bit_ceil(sizes.outlineCorners + kCutsAPolygon), kMostPolygonCorners) - kCutsAPolygon,
-            .faceCorners = 4,
-            .lightVertices = std::bit_ceil(sizes.lightVertices),
-            .silhouetteEdges = std::min(std::bit_ceil(sizes.silhouetteEdges), kMostSilhouetteEdges),
-            .faces = (sizes.faces + 31) / 32 * 32};
+    sizes.occluders = std::min(sizes.occluders, kOccludersALight);
+    return sizes;
 }
 
 /// What is asked for where one face of a light is seen past one triangle after another.
 AreaSizes ofTriangles(const AreaSizes& sizes)
 {
-    return {.outlineCorners = sizes.faceCorners, .silhouetteEdges = kTriangleEdges, .faces = sizes.faces};
+    return {.outlineCorners = sizes.faceCorners, .silhouetteEdges = kTriangleEdges, .faces = sizes.faces, .occluders = kTrianglesALight};
 }
 
-std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes, uint32_t occluders)
+uint32_t roundedUp(uint32_t count, uint32_t step) { return (count + step - 1) / step * step; }
+uint32_t polygonCornersOf(const AreaSizes& sizes) { return sizes.outlineCorners + kCutsAPolygon; }
+/// One a body that overlaps others, and what is scratch.
+uint32_t polygonPlacesOf(const AreaSizes& sizes) { return std::min(sizes.occluders, kOccludersALight) + 6; }
+
+/// Of the arrays that a thread of area_shade.comp holds, where vectors of three take the room of four.
+uint32_t threadBytes(const AreaSizes& sizes)
 {
-    const auto polygonCorners = static_cast<int>(sizes.outlineCorners + kCutsAPolygon);
-    const auto edges = static_cast<int>(sizes.silhouetteEdges);
-    return {{"POLYGON_PLACES", static_cast<int>(kOccludersALight) + 6},
-            {"POLYGON_CORNERS", polygonCorners},
-            {"SILHOUETTE_EDGES", edges * static_cast<int>(occluders)},
+    const uint32_t corners = polygonPlacesOf(sizes) * polygonCornersOf(sizes), edges = sizes.occluders * sizes.silhouetteEdges;
+    const uint32_t vectors = corners + 4 * edges + 2 * sizes.silhouetteEdges + 2 * sizes.outlineCorners;
+    return vectors * static_cast<uint32_t>(sizeof(vec4)) + 4 * (2 * sizes.lightVertices + 2 * sizes.faces / 32 + 2 * sizes.occluders + 64);
+}
+
+/// Few different sizes, so that few pipelines are made as lights come and go.
+AreaSizes rounded(const AreaSizes& sizes)
+{
+    return {.isPlanar = sizes.isPlanar,
+            .outlineCorners = std::min(roundedUp(sizes.outlineCorners + kCutsAPolygon, 8), kMostPolygonCorners) - kCutsAPolygon,
+            .faceCorners = 4,
+            .lightVertices = std::bit_ceil(sizes.lightVertices),
+            .silhouetteEdges = std::min(roundedUp(sizes.silhouetteEdges, 4), kMostSilhouetteEdges),
+            .faces = roundedUp(sizes.faces, 32),
+            .occluders = std::bit_ceil(sizes.occluders)};
+}
+
+std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes)
+{
+    const auto edges = static_cast<int>(sizes.silhouetteEdges), occluders = static_cast<int>(sizes.occluders);
+    return {{"POLYGON_PLACES", static_cast<int>(polygonPlacesOf(sizes))},
+            {"POLYGON_CORNERS", static_cast<int>(polygonCornersOf(sizes))},
+            {"SILHOUETTE_EDGES", edges * occluders},
             {"SILHOUETTE_BODY_EDGES", edges},
             {"FACE_WORDS", static_cast<int>(sizes.faces / 32)},
             {"OUTLINE_CORNERS", static_cast<int>(sizes.outlineCorners)},
             {"LIGHT_VERTICES", static_cast<int>(sizes.lightVertices)},
-            {"AREA_OCCLUDERS", static_cast<int>(occluders)},
-            {"AREA_SIGNED", static_cast<int>(occluders)}};
+            {"AREA_OCCLUDERS", occluders},
+            {"AREA_SIGNED", occluders}};
 }
 
 } // namespace
+
+AreaSizes roomFor(const AreaSizes& asked, uint32_t mostBytes)
+{
+    AreaSizes sizes = rounded(asked);
+    while (threadBytes(sizes) > mostBytes && sizes.occluders > 1)
+        --sizes.occluders;
+    return sizes;
+}
 
 bool traces(LightShadow shadow) { return shadow == LightShadow::Traced || shadow == LightShadow::Reference; }
 
@@ -70,7 +99,10 @@ const gpu::Pipeline& AreaPipelines::shade(const Variant& variant)
 {
     const int shadow = shaderShadowOf(variant.shadow);
     const bool hasTriangles = variant.shadow == LightShadow::Triangles, isReference = variant.shadow == LightShadow::Reference;
-    const AreaSizes sizes = rounded(traces(variant.shadow) ? AreaSizes{} : hasTriangles ? ofTriangles(variant.sizes) : variant.sizes);
+    const AreaSizes sizes = roomFor(traces(variant.shadow) ? AreaSizes{}
+                                    : hasTriangles         ? ofTriangles(variant.sizes)
+                                                           : ofBodies(variant.sizes),
+                                    device_->info().isCpu ? std::numeric_limits<uint32_t>::max() : kMostThreadBytes);
     const auto found = std::ranges::find_if(made_, [&](const Made& made) {
         return made.shadow == shadow && made.isReference == isReference && made.hasTriangles == hasTriangles &&
                made.isGlossy == variant.isGlossy && made.hasFields == variant.hasFields && made.backend == variant.backend &&
@@ -78,7 +110,7 @@ const gpu::Pipeline& AreaPipelines::shade(const Variant& variant)
     });
     if (found != made_.end())
         return found->pipeline;
-    std::vector<gpu::ShaderDefine> defines = sizeDefines(sizes, hasTriangles ? kTrianglesALight : kOccludersALight);
+    std::vector<gpu::ShaderDefine> defines = sizeDefines(sizes);
     defines.push_back({"SHADOW", shadow});
     const std::pair<bool, std::string_view> parts[] = {
         {sizes.isPlanar, "PLANAR_LIGHTS"}, {variant.isGlossy, "GLOSSY"}, {hasTriangles, "TRIANGLES"},
