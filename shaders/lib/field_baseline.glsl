@@ -1,6 +1,6 @@
-// Soft shadows from one march through a signed distance field, for comparison: Quilez 2010 with signed distances and Aaltonen's improvement
-// (2018), which take the occluder for one straight edge; and the minimal tangent cone of Ban, Balint, Valasek 2020 (Algorithm 2, as corrected
-// in methods/sdf-cones.md), which did, with looks to its sides. Needs lib/field_cone.glsl.
+// Earlier ways to a soft shadow from one march through a signed distance field, for comparison: Quilez 2010 with signed distances, Aaltonen's
+// improvement (2018), and the minimal tangent cone of Ban, Balint, Valasek 2020 (Algorithm 2, as corrected in methods/sdf-cones.md). All
+// take the occluder for one straight edge. Needs lib/field_cone.glsl.
 #ifndef LIB_FIELD_BASELINE_GLSL
 #define LIB_FIELD_BASELINE_GLSL
 
@@ -47,69 +47,24 @@ float aaltonenVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius)
     return smoothShare(2.0 * clamp(least, 0.0, 1.0) - 1.0);
 }
 
-// Where a cone is clear the least, and where next: solids at two depths narrow it twice.
-struct FieldNarrows
-{
-    vec2 at; // metres along the axis
-    vec2 ratio; // of distance by radius there, the lesser first; 1 where nothing narrows it
-};
-
-void addNarrow(inout FieldNarrows narrows, float at, float ratio)
-{
-    bool isLeast = ratio < narrows.ratio.x, isNext = ratio < narrows.ratio.y;
-    narrows.at.y = isLeast ? narrows.at.x : isNext ? at : narrows.at.y;
-    narrows.ratio.y = isLeast ? narrows.ratio.x : isNext ? ratio : narrows.ratio.y;
-    narrows.at.x = isLeast ? at : narrows.at.x;
-    narrows.ratio.x = isLeast ? ratio : narrows.ratio.x;
-}
-
 // A cone that shrinks to what is clear as it goes; no step goes past more than `tolerance` of its width.
-FieldNarrows narrowsOf(FieldsBlock fields, FieldCone cone, float distanceFrom, float end, float tolerance)
-{
-    FieldNarrows narrows = FieldNarrows(vec2(0.0), vec2(1.0));
-    float share = 1.0, before = 1.0, t = 0.0, f = distanceFrom, last = 0.0;
-    bool isFalling = false;
-    for (uint i = 0u; i < kFieldMarchSteps && t < end && before > -1.0; ++i) {
-        f = i > 0u ? fieldDistance(fields, cone.apex + cone.axis * t) : f;
-        float whole = radiusAt(cone, t), ratio = f / whole;
-        if (isFalling && ratio > before)
-            addNarrow(narrows, last, before);
-        isFalling = ratio < before || (isFalling && ratio == before);
-        share = min(share, ratio - tolerance);
-        before = ratio;
-        last = t;
-        t += max((f - share * whole) / (1.0 + share * cone.slope), 1.0e-5 + 1.0e-4 * t);
-    }
-    if (isFalling)
-        addNarrow(narrows, last, before);
-    return narrows;
-}
-
-// The minimal tangent cone, which takes what it meets for one straight edge, is off by corners, by what is narrower than the light and by
-// solids on both its sides; so four parts of the light are looked at where the cone is narrowest, and where it is next.
 float coneVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, float tolerance)
 {
-    const uint kLooks = 4u;
     FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     if (at.settled >= 0.0)
         return at.settled;
     FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, min(at.distance, 0.5 * radius));
-    FieldNarrows narrows = narrowsOf(fields, cone, at.distance, at.distanceLight - radius, tolerance);
-    if (narrows.ratio.x >= 1.0 || narrows.ratio.x <= -1.0)
-        return narrows.ratio.x > 0.0 ? 1.0 : 0.0;
-    mat3 frame = tangentFrame(at.axis);
-    float sine = min(radius / at.distanceLight, 0.9999), seen = 0.0;
-    for (uint k = 0u; k < kLooks; ++k) {
-        vec3 place = subConePlace(k, kLooks), aside = frame[0] * place.x + frame[1] * place.y;
-        float least = 1.0;
-        for (int i = 0; i < 2; ++i) {
-            float here = radiusAt(cone, narrows.at[i]);
-            vec3 there = cone.apex + cone.axis * narrows.at[i] + aside * here;
-            least = narrows.ratio[i] < 1.0 ? min(least, fieldDistance(fields, there) / (place.z * here)) : least;
+    float least = 1.0, share = 1.0, t = 0.0, f = at.distance, end = at.distanceLight - radius;
+    for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
+        f = i > 0u ? fieldDistance(fields, p + at.axis * t) : f;
+        float whole = radiusAt(cone, t);
+        if (f - share * whole < tolerance * whole) {
+            least = min(least, f / whole);
+            share = min(share, f / whole - tolerance);
         }
-        seen += capCoverage(least, place.z * sine);
+        t += max((f - share * whole) / (1.0 + share * cone.slope), 1.0e-5 + 1.0e-4 * t);
     }
-    return seen / float(kLooks);
+    return smoothShare(least);
 }
 
 #endif

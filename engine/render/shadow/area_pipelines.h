@@ -12,8 +12,10 @@ namespace antumbra::render {
 /// Found as a share of the light, apart from it.
 [[nodiscard]] bool isShare(scene::LightShadow shadow);
 
-/// The sizes that a shader is compiled for: few different ones, and with `occluders` of a pixel in closed form, fewer where its threads would
-/// hold more than `mostBytes` otherwise (never less than one). What there is no room for is sampled, and counted.
+/// Of the arrays that a thread of area_shade.comp holds when it is compiled for these sizes; vectors of three take the room of four.
+[[nodiscard]] uint32_t threadBytes(const AreaSizes& sizes);
+/// The sizes that a shader is compiled for: few different ones, and with `occluders` of a pixel in closed form, fewer where its threads
+/// would hold more than `mostBytes` otherwise (never less than one). What there is no room for is sampled, and counted.
 [[nodiscard]] AreaSizes roomFor(const AreaSizes& asked, uint32_t mostBytes);
 
 class AreaPipelines
