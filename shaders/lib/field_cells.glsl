@@ -102,15 +102,12 @@ vec3 edgePlane(FieldCone cone, FieldMarch march, FieldSlope slope)
     return plane * inversesqrt(max(dot(plane, plane), 1.0e-30));
 }
 
-// The form factor of what is seen of the polygon at kCell.
-float cellSeen(FieldsBlock fields, CellLight light, vec2 span, float whole)
+// The form factor of what is seen of the polygon at kCell, `whole` all of it, where the cone that holds the light met what it found.
+float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch found, float whole)
 {
     float end;
     FieldCone cone = coneOfPolygon(light, kCell, end);
-    vec2 way = vec2(span.x, min(span.y, end));
-    float first = way.x > 0.0 ? fieldDistance(fields, cone.apex + cone.axis * way.x) : light.distanceHere;
-    FieldMarch march = marchCone(fields, cone, way, first, 0.4);
-    searchGap(fields, cone, march);
+    FieldMarch march = marchPart(fields, cone, wide, found, end, light.distanceHere, 0.2);
     if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? whole : 0.0;
     FieldSlope slope =
@@ -131,7 +128,7 @@ float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint co
     CellLight light = CellLight(p, distanceHere, frame, plane);
     float end;
     FieldCone cone = coneOfPolygon(light, kCellLight, end);
-    FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, 0.4);
+    FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, kWideTolerance);
     if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? 1.0 : 0.0;
     CellGrid grid = cellGrid(kCellLight, count);
@@ -150,7 +147,7 @@ float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint co
             strip = next;
             float whole = clamp(formFactor(kCell, true), 0.0, 1.0);
             if (whole > 0.0)
-                seen += cellSeen(fields, light, march.span, whole);
+                seen += cellSeen(fields, light, cone, march, whole);
             all += whole;
         }
     }

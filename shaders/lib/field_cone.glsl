@@ -7,18 +7,24 @@
 
 const uint kFieldMarchSteps = 256u; // receivers that lights graze need that many
 const uint kFieldMostCones = 16u;
+const float kWideTolerance = 0.3; // of the radius of a cone that holds all of a light
 
 // Share of a cap that a plane through its apex leaves clear: `m` is the sine of the plane's angle to the axis as a share of `sine`, that of
-// the cap's half angle; 1 is clear. A disc's share and the next term of its series where the cap is nearly flat: there the formula is a
-// difference of nearly equal angles.
-float capCoverage(float m, float sine)
+// the cap's half angle; 1 is clear. A disc's share and the next term of its series: off by 0.002 at most while `sine` is under 0.5.
+float flatCapCoverage(float m, float sine)
 {
     m = clamp(m, -1.0, 1.0);
     float side = sqrt(max((1.0 - m) * (1.0 + m), 0.0));
-    float disc = 0.5 + (m * side + atan(m, side)) / kPi;
+    return clamp(0.5 + (m * side + atan(m, side)) / kPi - m * side * side * side * sine * sine / kTau, 0.0, 1.0);
+}
+
+// The same of any cap. Where it is nearly flat the formula is a difference of nearly equal angles.
+float capCoverage(float m, float sine)
+{
     if (sine < 0.2)
-        return clamp(disc - m * side * side * side * sine * sine / kTau, 0.0, 1.0);
-    float cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
+        return flatCapCoverage(m, sine);
+    m = clamp(m, -1.0, 1.0);
+    float side = sqrt(max((1.0 - m) * (1.0 + m), 0.0)), cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
     float b = m * sine, cosineB = sqrt(max((1.0 - b) * (1.0 + b), 0.0));
     float x = clamp(-b * cosine / max(cosineB * sine, 1.0e-20), -1.0, 1.0);
     float angle = atan(sqrt(max((1.0 - x) * (1.0 + x), 0.0)), x);
@@ -57,49 +63,45 @@ struct FieldMarch
     FieldGap gap; // the one that may hold the least
 };
 
-// The least share of the cone's radius that is clear on the way, to `tolerance`. Steps go past what is certain and are taken back where two
-// balls do not meet.
+// The share of the radius that must be clear for a place to make no difference, once `ratio` of it is known to be clear somewhere. To miss a
+// depth tells more than to miss what comes near: where something is cut by the axis its place and its slope count.
+float levelOf(float ratio, float tolerance) { return max(ratio - 2.0 * tolerance, clamp(ratio, -1.0, 0.0) - tolerance); }
+
+// The least share of the cone's radius that is clear on the way: to `tolerance` where the axis is blocked, to twice that where it is not. The
+// distance at its start is `distanceFrom` or more. Steps go past what is certain and are taken back where two balls do not meet: the farther,
+// the more the distance rose on the last (Balint, Valasek 2018).
 FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
 {
-    const float kRelaxed = 1.8;
-    float t = way.x, f = distanceFrom, ratio = f / radiusAt(cone, t), leastInGap = 1.0;
-    FieldMarch march = FieldMarch(min(ratio, 1.0), t, f, way, FieldGap(vec2(t), vec2(f)));
-    float level = march.least - tolerance, relaxation = kRelaxed, last = kFieldFar; // `distanceFrom` may be of other groups
-    bool isMet = ratio < 1.0, isInside = isMet, isDone = t >= way.y || march.least <= -1.0;
-    for (uint i = 0u; i < kFieldMarchSteps && !isDone; ++i) {
-        float safe = max((f - level * radiusAt(cone, t)) / (1.0 + level * cone.slope), 1.0e-5 + 1.0e-4 * t);
-        isDone = t + safe >= way.y;
-        if (isDone)
+    const float kRelaxed = 1.8, kMostRelaxed = 4.0;
+    float t = way.x, f = distanceFrom, leastInGap = 1.0, level = levelOf(1.0, tolerance), relaxation = kRelaxed;
+    float last = kFieldFar; // `distanceFrom` may be of other groups
+    FieldMarch march = FieldMarch(1.0, t, f, way, FieldGap(vec2(t), vec2(f)));
+    bool isMet = false, isInside = false;
+    for (uint i = 0u; i < kFieldMarchSteps && march.least > -1.0; ++i) {
+        float safe = max((f - level * radiusAt(cone, t)) / max(1.0 + level * cone.slope, 0.01), 1.0e-5 + 1.0e-4 * t);
+        if (t + safe >= way.y)
             break;
         float next = min(t + relaxation * safe, way.y);
-        float g = fieldDistance(fields, cone.apex + cone.axis * next, last + next - t);
+        float g = fieldDistance(fields, cone.apex + cone.axis * next, last + next - t), ratio = g / radiusAt(cone, next);
         FieldGap gap = FieldGap(vec2(t, next), vec2(f, g));
-        float inGap = gapLeast(cone, gap);
-        ratio = g / radiusAt(cone, next);
-        float nextLevel = min(level, max(ratio, -1.0) - tolerance);
-        bool isCertain = relaxation == 1.0 || inGap >= nextLevel;
-        if (ratio < march.least) {
-            march.least = ratio;
-            march.at = next;
-            march.distance = g;
-        }
-        level = nextLevel;
-        isDone = march.least <= -1.0;
-        relaxation = isCertain ? kRelaxed : 1.0;
+        float inGap = gapLeast(cone, gap), rise = i > 0u ? (g - f) / (next - t) : 0.0;
+        march.at = ratio < march.least ? next : march.at;
+        march.distance = ratio < march.least ? g : march.distance;
+        march.least = min(march.least, ratio);
+        level = min(level, levelOf(ratio, tolerance));
+        bool isCertain = relaxation == 1.0 || inGap >= level, isIn = ratio < 1.0;
+        relaxation = isCertain ? clamp(kRelaxed / (1.0 - rise), 1.0, kMostRelaxed) : 1.0;
         if (!isCertain)
             continue;
         march.gap = inGap < leastInGap ? gap : march.gap;
         leastInGap = min(leastInGap, inGap);
-        bool isIn = ratio < 1.0;
         march.span.x = isIn && !isMet ? t : march.span.x;
-        march.span.y = !isIn && isInside ? next : march.span.y;
+        march.span.y = isIn ? way.y : isInside ? next : march.span.y;
         isMet = isMet || isIn;
         isInside = isIn;
         t = next;
-        f = g;
-        last = g;
+        f = last = g;
     }
-    march.span.y = isInside ? way.y : march.span.y;
     return march;
 }
 
@@ -117,6 +119,16 @@ void searchGap(FieldsBlock fields, FieldCone cone, inout FieldMarch march)
         FieldGap behind = FieldGap(vec2(t, march.gap.at.y), vec2(f, march.gap.distance.y));
         march.gap = gapLowest(before) < gapLowest(behind) ? before : behind;
     }
+}
+
+// The march of a cone that shares the wide one in which `found` was met.
+FieldMarch marchPart(FieldsBlock fields, FieldCone part, FieldCone wide, FieldMarch found, float end, float distanceHere, float tolerance)
+{
+    float start = found.span.x, apart = start * distance(wide.axis, part.axis);
+    float atLeast = start > 0.0 ? radiusAt(wide, start) - apart : distanceHere;
+    FieldMarch march = marchCone(fields, part, vec2(start, min(found.span.y, end)), atLeast, tolerance);
+    searchGap(fields, part, march);
+    return march;
 }
 
 // What every method settles before it divides: inside a solid all is dark, inside the light all is lit.
@@ -170,6 +182,34 @@ vec3 subConePlace(uint k, uint count)
     return vec3(off * cos(turn), off * sin(turn), count == 7u ? 0.378 : 0.278);
 }
 
+// Cones that share a wide one.
+struct SubCones
+{
+    mat3 frame; // across the way to the light, as far as its radius where it is 1 metre away, and along
+    FieldCone wide;
+    float distanceLight; // metres
+    float radius; // of the light, metres
+    uint count;
+};
+
+FieldCone subCone(SubCones cones, uint k)
+{
+    vec3 place = subConePlace(k, cones.count), axis = normalize(cones.frame * vec3(place.xy, 1.0));
+    float radius = place.z * cones.radius;
+    return coneToSphere(cones.wide.apex, axis, cones.distanceLight, radius, min(cones.wide.radius, 0.5 * radius));
+}
+
+// In the middle of 7 and of 16 is the wide cone's own axis, which is not gone along again.
+FieldMarch marchSubCone(FieldsBlock fields, SubCones cones, uint k, FieldMarch whole, float end, float distanceHere)
+{
+    FieldCone cone = subCone(cones, k);
+    if (k > 0u || cones.count == 4u)
+        return marchPart(fields, cone, cones.wide, whole, end, distanceHere, 0.45);
+    whole.least = min(whole.distance / radiusAt(cone, whole.at), 1.0);
+    searchGap(fields, cone, whole);
+    return whole;
+}
+
 float subConeLeast[kFieldMostCones];
 float subConeAt[kFieldMostCones];
 float subConeDistance[kFieldMostCones];
@@ -201,20 +241,21 @@ const float kSlopeNudge = 0.3; // of the cone's radius
 // What is seen in a cone that is blocked in its middle; `sine` of its half angle. Across the edge of a wedge the distance rises by less than
 // one goes, and the edge is as much farther. Where it is level, in the middle of what is thin, the nearest cone that is clear says how far
 // the solid reaches at most; but a rod, from which it rises steeply to both sides, hides no more than a band.
-float blockedSubConeSeen(FieldsBlock fields, FieldCone cone, uint k, uint count, float sine)
+float blockedSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
 {
     float depth = -subConeLeast[k], most = 1.0;
-    vec3 place = subConePlace(k, count);
-    for (uint j = 0u; j < count; ++j) {
-        float apart = distance(place.xy, subConePlace(j, count).xy) / place.z;
+    vec3 place = subConePlace(k, cones.count);
+    for (uint j = 0u; j < cones.count; ++j) {
+        float apart = distance(place.xy, subConePlace(j, cones.count).xy) / place.z;
         most = subConeLeast[j] >= 0.0 ? min(most, apart - subConeLeast[j]) : most;
     }
     most = max(most, depth);
+    FieldCone cone = subCone(cones, k);
     vec3 at = cone.apex + cone.axis * subConeAt[k];
     FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], kSlopeNudge * radiusAt(cone, subConeAt[k]));
     float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
-    float pastEdge = capCoverage(-mix(most, min(depth / slope.greatest, most), certainty), sine);
-    float besideRod = capCoverage(-depth, sine) + 1.0 - capCoverage(depth, sine);
+    float pastEdge = flatCapCoverage(-mix(most, min(depth / slope.greatest, most), certainty), sine);
+    float besideRod = flatCapCoverage(-depth, sine) + 1.0 - flatCapCoverage(depth, sine);
     return max(pastEdge, rod * besideRod);
 }
 
@@ -235,30 +276,23 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
     mat3 frame = tangentFrame(at.axis);
-    FieldMarch whole = marchCone(fields, coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere), vec2(0.0, end), at.distance, 0.4);
+    FieldCone wide = coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere);
+    FieldMarch whole = marchCone(fields, wide, vec2(0.0, end), at.distance, kWideTolerance);
     if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
         return capCoverage(whole.least, sine);
+    SubCones cones = SubCones(mat3(frame[0] * tangent, frame[1] * tangent, at.axis), wide, at.distanceLight, radius, count);
     for (uint k = 0u; k < count; ++k) {
-        vec3 place = subConePlace(k, count);
-        vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
-        FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
-        float first = whole.span.x > 0.0 ? fieldDistance(fields, p + axis * whole.span.x) : at.distance;
-        FieldMarch part = marchCone(fields, cone, whole.span, first, 0.5);
-        searchGap(fields, cone, part);
+        FieldMarch part = marchSubCone(fields, cones, k, whole, end, at.distance);
         subConeLeast[k] = max(part.least, -1.0);
         subConeAt[k] = part.at;
         subConeDistance[k] = part.distance;
     }
     float seen = 0.0;
     for (uint k = 0u; k < count; ++k) {
-        vec3 place = subConePlace(k, count);
-        float least = subConeLeast[k], share = capCoverage(least, place.z * sine);
-        if (least < 0.0 && least > -0.95) { // what is left of a cone that is blocked farther makes no difference
-            vec3 axis = normalize(at.axis + frame[0] * (place.x * tangent) + frame[1] * (place.y * tangent));
-            FieldCone cone = coneToSphere(p, axis, at.distanceLight, place.z * radius, min(radiusHere, 0.5 * place.z * radius));
-            share = blockedSubConeSeen(fields, cone, k, count, place.z * sine);
-        }
-        seen += share;
+        float least = subConeLeast[k], sineHere = subConePlace(k, count).z * sine;
+        // What is left of a cone that is blocked farther makes no difference.
+        bool isBlocked = least < 0.0 && least > -0.95;
+        seen += isBlocked ? blockedSubConeSeen(fields, cones, k, sineHere) : flatCapCoverage(least, sineHere);
     }
     return seen / float(count);
 }
