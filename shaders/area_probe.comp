@@ -72,14 +72,14 @@ void tellPiece(int place)
     }
 }
 
-void probe(AreaBlock area, uint index, vec3 normal, mat3 tangentSpace)
+void probe(AreaBlock area, uint index, vec3 normal, mat3 tangentSpace, bool isMoving)
 {
     AreaLightBlock light = Lights(area.lights).block[index];
     BodyBlock body = Bodies(area.arrays.bodies).body[light.body];
     if (!beginLight(area.arrays, body, point))
         return;
     for (uint i = 0u; i < area.occluderCount; ++i) {
-        BodyBlock blocker = Bodies(area.arrays.bodies).body[area.firstOccluder + i];
+        BodyBlock blocker = occluderBefore(area.arrays, area.firstOccluder + i, isMoving);
         if (Owners(area.owners).light[i] != light.light && mayHide(blocker, point))
             addOccluder(area.arrays, body, blocker, point);
     }
@@ -106,8 +106,9 @@ void main()
         point = rayOrigin(worldPosition(frameBlock, vec2(pc.pixel) + 0.5, depth), unitFromOctahedral(octahedral.xy), frameBlock.eye);
         worldFromLobe = tangentFrame(normal);
         AreaBlock area = Areas(pc.area).block;
+        bool isMoving = texelFetch(sampledImages[pc.albedo], pc.pixel, 0).a > 0.5;
         for (uint i = 0u; i < area.lightCount; ++i)
-            probe(area, i, normal, transpose(worldFromLobe));
+            probe(area, i, normal, transpose(worldFromLobe), isMoving);
     }
     Lines(pc.lines).count = lineCount;
 }

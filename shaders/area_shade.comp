@@ -68,6 +68,7 @@ struct Received
 
 const uint kMostMattering = 24u; // occluders of a pixel and light whose spheres meet the light's cone
 uint matters[kMostMattering];
+bool isMoving = false; // what is shaded
 uint matterCount = 0u;
 uint pieceCount = 0u, lightVertexCount = 0u, silhouetteVertexCount = 0u;
 bool isFallback = false;
@@ -135,7 +136,7 @@ void addOccluders(AreaBlock area, uint index, BodyBlock body, LitSurface s, ivec
     isOccluderLost = mattering > kMostMattering;
     matterCount = min(mattering, kMostMattering);
     for (uint i = 0u; i < min(mattering, kMostMattering) && !isAllHidden; ++i)
-        addOccluder(area.arrays, body, Bodies(area.arrays.bodies).body[matters[i]], s.position);
+        addOccluder(area.arrays, body, occluderBefore(area.arrays, matters[i], isMoving), s.position);
 }
 
 // Share of points on the light's outline that are seen past all that matters: where there is more of it than the closed form has room for.
@@ -149,7 +150,7 @@ float sampledPast(BodyArrays arrays, vec3 point, bool isWanted)
         vec3 to = outline[0] * (1.0 - u) + outline[triangle] * (u * (1.0 - v)) + outline[triangle + 1u] * (u * v);
         bool isPast = true;
         for (uint k = 0u; k < matterCount && isPast; ++k)
-            isPast = !blocksWay(arrays, Bodies(arrays.bodies).body[matters[k]], point, to);
+            isPast = !blocksWay(arrays, occluderBefore(arrays, matters[k], isMoving), point, to);
         seen += isPast ? 1.0 / float(samples) : 0.0;
     }
     return seen;
@@ -253,6 +254,7 @@ void main()
         AreaBlock area = Areas(pc.area).block;
         LitSurface s = litSurface(frameBlock, SurfaceImages(pc.normals, pc.albedo, pc.material), pixel, depth);
         mostPlanes = pc.mostPlanes;
+        isMoving = texelFetch(sampledImages[pc.albedo], pixel, 0).a > 0.5;
         for (uint i = pc.firstLight; i < pc.endLight; ++i) {
             AreaLightBlock light = Lights(area.lights).block[i];
             Received one = received(area, light, i, s, pixel);

@@ -177,6 +177,15 @@ CutPlane planeOfFace(BodyArrays arrays, BodyBlock light, FaceBlock face, vec3 po
     return isLightFlipped ? CutPlane(-face.normal, -height) : CutPlane(face.normal, height);
 }
 
+// As a surface meets it.
+BodyBlock occluderBefore(BodyArrays arrays, uint index, bool isMoving)
+{
+    BodyBlock body = Bodies(arrays.bodies).body[index];
+    bool isSolid = (body.flags & kBodySkin) != 0u && !isMoving;
+    body.flags &= isSolid ? ~kBodyHollow : ~0u;
+    return body;
+}
+
 // What lies before the light hides it: all of the body where it is in front of one face that is seen, else what is in front of each.
 void addOccluder(BodyArrays arrays, BodyBlock light, BodyBlock body, vec3 point)
 {

@@ -7,8 +7,9 @@ const uint kNoFace = 0xffffu;
 const uint kBodyPlanar = 1u; // one polygon, no inside
 const uint kBodyTwoSided = 2u; // a planar light shines to both sides; what blocks does so from both
 const uint kBodyFrontOnly = 4u; // a triangle of a closed mesh: the side that is seen blocks
-const uint kBodySphere = 16u; // stands for the sphere around it
 const uint kBodyHollow = 8u; // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
+const uint kBodySphere = 16u; // stands for the sphere around it
+const uint kBodySkin = 32u; // what it stands for moves: hollow to nothing else
 
 // A convex polyhedron or polygon. What is counted from its first is indexed relative to it.
 struct BodyBlock

@@ -23,6 +23,7 @@ struct AreaProbe
     uint frame; // slot of a FrameBlock
     uint depth;
     uint normals;
+    uint albedo;
     int mostPlanes;
     ivec2 pixel;
 };

@@ -159,6 +159,7 @@ void echo(AreaProbe b)
     put(b.frame);
     put(b.depth);
     put(b.normals);
+    put(b.albedo);
     put(b.mostPlanes);
     put(b.pixel.x);
     put(b.pixel.y);

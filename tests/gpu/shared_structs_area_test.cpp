@@ -81,7 +81,7 @@ TEST_F(AreaStructs, AreaTiles)
 TEST_F(AreaStructs, AreaProbe)
 {
     expectSameLayout<shader::AreaProbe>("AREA_PROBE", [](const auto& b) {
-        return wordsOf(b.area, b.lines, b.scratch, b.frame, b.depth, b.normals, b.mostPlanes, b.pixel.x, b.pixel.y);
+        return wordsOf(b.area, b.lines, b.scratch, b.frame, b.depth, b.normals, b.albedo, b.mostPlanes, b.pixel.x, b.pixel.y);
     });
 }
 

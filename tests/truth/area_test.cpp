@@ -207,6 +207,25 @@ TEST_F(AreaTest, AMovingLightTakesNoMemory)
     expectSound(shown);
 }
 
+// Hulls hide nothing from the skin that lies about them, but all else is as dark beside the shoes as beside any solid.
+TEST_F(AreaTest, FloorsAreDarkWhereCharactersStand)
+{
+    scene::SceneFile scene = namedScene("stage");
+    scene.camera.position = {-0.2f, 0.45f, 1.3f};
+    scene.camera.target = {-0.6f, 0.05f, 0.4f};
+    Shown shown(device(), scene, {160, 90});
+    const scene::ImageF depth = shown.capture(Aov::Depth), normals = shown.capture(Aov::Normal);
+    std::vector<size_t> floor;
+    for (const size_t pixel : surfaceOf(depth))
+        if (pixelOf(normals, pixel).y > 0.999f)
+            floor.push_back(pixel);
+    const scene::ImageF truth = referenceOf(shown, Aov::Irradiance, 512);
+    shown.set("area.shadow", "analytic");
+    const double error = rmse(shown.capture(Aov::Irradiance), truth, floor) / meanOf(truth, floor);
+    EXPECT_LT(error, 0.03);
+    EXPECT_GT(error, 0);
+}
+
 // A quarter of the resolution sees no detail finer than four pixels: the errors, 9.8 %, lie on the characters and where they stand.
 TEST_F(AreaTest, AQuarterOfTheResolutionIsNearTheWhole)
 {

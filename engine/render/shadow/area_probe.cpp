@@ -38,8 +38,8 @@ void AreaProbeSystem::declare(graph::FrameGraph& graph, uint32_t frame, const GB
     Slot& slot = slots_[device_->frameSlot()];
     slot.isPending = true;
     graph::Pass pass = graph.add("area probe");
-    pass.read(g.depth, Use::Sampled);
-    pass.read(g.normals, Use::Sampled);
+    for (const graph::ImageRef image : {g.depth, g.normals, g.albedo})
+        pass.read(image, Use::Sampled);
     const graph::BufferRef lines =
         pass.write(graph.importBuffer("area probe", kLineBytes, graph::importedBuffer(slot.lines)), Use::StorageWrite);
     // Frames take turns with the scratch.
@@ -54,6 +54,7 @@ void AreaProbeSystem::declare(graph::FrameGraph& graph, uint32_t frame, const GB
                                             .frame = frame,
                                             .depth = recorder.sampled(g.depth),
                                             .normals = recorder.sampled(g.normals),
+                                            .albedo = recorder.sampled(g.albedo),
                                             .mostPlanes = static_cast<int>(mostPlanes),
                                             .pixel = pixel},
                           {1, 1}, {1, 1});
