@@ -67,8 +67,8 @@ TEST_F(AreaStructs, AreaTileBlock)
 TEST_F(AreaStructs, AreaBlock)
 {
     expectSameLayout<shader::AreaBlock>("AREA_BLOCK", [](const auto& b) {
-        return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.fields, b.lights,
-                       b.owners, b.firstOccluder, b.occluderCount, b.lightCount, b.tilesAcross);
+        return wordsOf(b.arrays.bodies, b.arrays.vertices, b.arrays.faces, b.arrays.corners, b.arrays.edges, b.fields, b.lights, b.owners,
+                       b.firstOccluder, b.occluderCount, b.lightCount, b.tilesAcross);
     });
 }
 
