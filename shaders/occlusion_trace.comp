@@ -13,8 +13,8 @@
 #include "lib/surface.glsl"
 #include "lib/hemisphere.glsl"
 #include "lib/spread.glsl"
-#include "lib/sh.glsl"
 #include "lib/cone.glsl"
+#include "lib/sample_batch.glsl"
 #ifdef COMPUTE_BVH
 #include "lib/bvh.glsl"
 #else
@@ -25,9 +25,7 @@
 #include "lib/field.glsl"
 #include "lib/field_ray.glsl"
 #endif
-#ifdef LOCAL_LIGHT
-#include "lib/irradiance_volume.glsl"
-#endif
+#include "lib/hidden_light.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Samples { vec3 direction[]; };
 layout(buffer_reference, scalar) readonly buffer Blockers { BlockerBlock block[]; };
@@ -46,27 +44,8 @@ struct Receiver
     mat3 frame; // of the samples
 };
 
-// What the samples found: sums of the SH basis over hidden directions, from which the irradiance follows once.
-#ifdef LOCAL_LIGHT
-const uint kHidden = 16u;
-#else
-const uint kHidden = 9u;
-#endif
-float hidden[kHidden];
 float blockerDistance = kNoBlocker;
 uint raysConsidered = 0u, raysTraced = 0u, coneCount = 0u;
-
-void addHidden(vec3 direction)
-{
-    float y[kHidden];
-#ifdef LOCAL_LIGHT
-    shBasis4(direction, y);
-#else
-    shBasis3(direction, y);
-#endif
-    for (uint i = 0u; i < kHidden; ++i)
-        hidden[i] += y[i];
-}
 
 // `i` may differ from thread to thread.
 vec3 localSample(uint i)
@@ -112,32 +91,10 @@ void traceAll(Receiver r)
 
 #else
 
-// Samples are looked at by the 32, a bit each: a test against a cone is some multiplications then, unrolled, and no look-up.
-const uint kBatch = 32u;
-vec3 batch[kBatch];
-
 void loadBatch(uint base)
 {
     for (uint i = 0u; i < kBatch; ++i)
         batch[i] = localSample(base + i);
-}
-
-// `axis` in the sample frame.
-uint samplesInCone(Cone cone, vec3 axis)
-{
-    float cosine = cone.all ? -2.0 : cone.cosine;
-    uint inside = 0u;
-    for (uint i = 0u; i < kBatch; ++i)
-        inside |= dot(batch[i], axis) >= cosine ? 1u << i : 0u;
-    return inside;
-}
-
-uint samplesMeeting(CapsuleBound bound)
-{
-    uint meeting = 0u;
-    for (uint i = 0u; i < kBatch; ++i)
-        meeting |= mayMeet(bound, batch[i]) ? 1u << i : 0u;
-    return meeting;
 }
 
 // The samples of a character's cone that may meet one of its capsules too.
@@ -257,32 +214,6 @@ void traceSurvivors(Receiver r, bool isSurface)
 
 #endif
 
-vec3 hiddenIrradiance(Receiver r)
-{
-    vec3 sum = vec3(0.0);
-#ifdef LOCAL_LIGHT
-    vec3 radiance[kHidden];
-    localRadiance(frameBlock.baked, r.origin, radiance);
-    // A surface that hides a direction faces the receiver and sends it some of its own irradiance, which is the cosine convolution turned
-    // about: a factor a band.
-    for (uint i = 0u; i < kHidden; ++i) {
-        float sent = i < 1u ? 1.0 : i < 4u ? -2.0 / 3.0 : i < 9u ? 0.25 : 0.0;
-        sum += (1.0 - sent * frameBlock.baked.sentOn) * radiance[i] * hidden[i];
-    }
-#else
-    for (uint i = 0u; i < kHidden; ++i)
-        sum += frameBlock.radianceSh[i] * hidden[i];
-#endif
-    return sum * (kPi / float(pc.sampleCount));
-}
-
-// Ringing leaves some surfaces without light to speak of; whatever their share is, composition clamps it.
-vec3 shareOf(vec3 occluded, vec3 unshadowed)
-{
-    float most = max(unshadowed.r, max(unshadowed.g, unshadowed.b));
-    return clamp(occluded / max(unshadowed, vec3(1.0e-3 * most + 1.0e-6)), vec3(-2.0), vec3(2.0));
-}
-
 void count()
 {
     uint considered = subgroupAdd(raysConsidered), traced = subgroupAdd(raysTraced), cones = subgroupAdd(coneCount);
@@ -325,8 +256,7 @@ void main()
     float depth = isInside ? texelFetch(sampledImages[pc.depth], ivec2(fullPixel), 0).x : 0.0;
     bool isSurface = depth > 0.0;
 
-    for (uint i = 0u; i < kHidden; ++i)
-        hidden[i] = 0.0;
+    beginHidden();
     Receiver r = Receiver(vec3(0.0), vec3(0.0, 1.0, 0.0), mat3(1.0));
     if (isSurface) {
         r = receiverAt(pixel, fullPixel, depth);
@@ -340,11 +270,11 @@ void main()
 #endif
 #ifdef REFERENCE
     if (isInside)
-        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(r), 0.0));
+        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(frameBlock, r.origin, pc.sampleCount), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
     vec3 unshadowed = texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb;
-    vec3 share = isSurface ? shareOf(hiddenIrradiance(r), unshadowed) : vec3(0.0);
+    vec3 share = isSurface ? shareOf(hiddenIrradiance(frameBlock, r.origin, pc.sampleCount), unshadowed) : vec3(0.0);
     TracedPixel traced = TracedPixel(share, coneCount, blockerDistance, depthView, octahedralFromUnit(r.normal));
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));
