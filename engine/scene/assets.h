@@ -15,7 +15,6 @@ struct BodyPart
 {
     ConvexBody body;
     uint32_t joint = kNoIndex;
-    bool isFrontOnly = false; // a triangle of a closed mesh: blocks on the side that is seen
     bool isHollow = false;    // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
     float margin = 0;         // metres, in the space of the body
 };

@@ -226,7 +226,7 @@ TEST_F(AreaTest, FloorsAreDarkWhereCharactersStand)
     EXPECT_GT(error, 0);
 }
 
-// A quarter of the resolution sees no detail finer than four pixels: the errors, 9.8 %, lie on the characters and where they stand.
+// A quarter of the resolution sees no detail finer than four pixels: the errors, 10 %, lie on the characters and where they stand.
 TEST_F(AreaTest, AQuarterOfTheResolutionIsNearTheWhole)
 {
     Shown shown(device(), namedScene("stage"), {320, 180});

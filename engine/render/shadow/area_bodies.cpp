@@ -15,8 +15,7 @@ void grow(uint32_t& size, size_t wanted) { size = std::max(size, static_cast<uin
 uint32_t flagsOf(const scene::BodyPart& part)
 {
     const bool isSkin = part.isHollow && part.joint != scene::kNoIndex;
-    return (part.isFrontOnly ? shader::kBodyFrontOnly : 0u) | (part.isHollow ? shader::kBodyHollow : 0u) |
-           (isSkin ? shader::kBodySkin : 0u);
+    return (part.isHollow ? shader::kBodyHollow : 0u) | (isSkin ? shader::kBodySkin : 0u);
 }
 
 } // namespace
