@@ -4,7 +4,7 @@
 #include "lib/frame.glsl"
 #include "lib/surface.glsl"
 #include "lib/field.glsl"
-#include "lib/field_cone.glsl"
+#include "lib/field_march.glsl"
 
 // A square of pixels that may show a signed distance field, as two triangles; none where nothing reaches into the cone of its rays. What one
 // march along the cone finds clear, the rays of its pixels need not march through.

@@ -107,7 +107,7 @@ float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch f
 {
     float end;
     FieldCone cone = coneOfPolygon(light, kCell, end);
-    FieldMarch march = marchPart(fields, cone, wide, found, end, light.distanceHere, 0.2);
+    FieldMarch march = marchPart(fields, cone, wide, found, end, light.distanceHere);
     if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? whole : 0.0;
     FieldSlope slope =

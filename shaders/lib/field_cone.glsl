@@ -3,11 +3,10 @@
 #ifndef LIB_FIELD_CONE_GLSL
 #define LIB_FIELD_CONE_GLSL
 
+#include "lib/field_march.glsl"
 #include "lib/hemisphere.glsl"
 
-const uint kFieldMarchSteps = 256u; // receivers that lights graze need that many
 const uint kFieldMostCones = 16u;
-const float kWideTolerance = 0.3; // of the radius of a cone that holds all of a light
 
 // Share of a cap that a plane through its apex leaves clear: `m` is the sine of the plane's angle to the axis as a share of `sine`, that of
 // the cap's half angle; 1 is clear. A disc's share and the next term of its series: off by 0.002 at most while `sine` is under 0.5.
@@ -32,105 +31,6 @@ float capCoverage(float m, float sine)
     return clamp(clear, 0.0, 1.0);
 }
 
-// From an apex towards a sphere: the radius of the ball that it holds grows by `slope` a metre.
-struct FieldCone
-{
-    vec3 apex;
-    vec3 axis; // unit
-    float radius; // at the apex, metres
-    float slope;
-};
-
-float radiusAt(FieldCone cone, float t) { return max(cone.radius + t * cone.slope, 1.0e-7); }
-
-// Two steps in a row, between which the field may fall lower than at either: it changes no faster than one goes.
-struct FieldGap
-{
-    vec2 at; // metres along the axis
-    vec2 distance; // there
-};
-
-float gapLowest(FieldGap gap) { return 0.5 * (gap.distance.x + gap.distance.y - (gap.at.y - gap.at.x)); }
-float gapLowestAt(FieldGap gap) { return 0.5 * (gap.at.x + gap.at.y + gap.distance.x - gap.distance.y); }
-float gapLeast(FieldCone cone, FieldGap gap) { return gapLowest(gap) / radiusAt(cone, gapLowestAt(gap)); }
-
-struct FieldMarch
-{
-    float least; // of distance by radius, at most 1; -1 and less: no light comes through
-    float at; // metres along the axis, where that is
-    float distance; // there
-    vec2 span; // metres along the axis: before and behind it nothing reaches into the cone
-    FieldGap gap; // the one that may hold the least
-};
-
-// The share of the radius that must be clear for a place to make no difference, once `ratio` of it is known to be clear somewhere. To miss a
-// depth tells more than to miss what comes near: where something is cut by the axis its place and its slope count.
-float levelOf(float ratio, float tolerance) { return max(ratio - 2.0 * tolerance, clamp(ratio, -1.0, 0.0) - tolerance); }
-
-// The least share of the cone's radius that is clear on the way: to `tolerance` where the axis is blocked, to twice that where it is not. The
-// distance at its start is `distanceFrom` or more. Steps go past what is certain and are taken back where two balls do not meet: the farther,
-// the more the distance rose on the last (Balint, Valasek 2018).
-FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
-{
-    const float kRelaxed = 1.8, kMostRelaxed = 4.0;
-    float t = way.x, f = distanceFrom, leastInGap = 1.0, level = levelOf(1.0, tolerance), relaxation = kRelaxed;
-    float last = kFieldFar; // `distanceFrom` may be of other groups
-    FieldMarch march = FieldMarch(1.0, t, f, way, FieldGap(vec2(t), vec2(f)));
-    bool isMet = false, isInside = false;
-    for (uint i = 0u; i < kFieldMarchSteps && march.least > -1.0; ++i) {
-        float safe = max((f - level * radiusAt(cone, t)) / max(1.0 + level * cone.slope, 0.01), 1.0e-5 + 1.0e-4 * t);
-        if (t + safe >= way.y)
-            break;
-        float next = min(t + relaxation * safe, way.y);
-        float g = fieldDistance(fields, cone.apex + cone.axis * next, last + next - t), ratio = g / radiusAt(cone, next);
-        FieldGap gap = FieldGap(vec2(t, next), vec2(f, g));
-        float inGap = gapLeast(cone, gap), rise = i > 0u ? (g - f) / (next - t) : 0.0;
-        march.at = ratio < march.least ? next : march.at;
-        march.distance = ratio < march.least ? g : march.distance;
-        march.least = min(march.least, ratio);
-        level = min(level, levelOf(ratio, tolerance));
-        bool isCertain = relaxation == 1.0 || inGap >= level, isIn = ratio < 1.0;
-        relaxation = isCertain ? clamp(kRelaxed / (1.0 - rise), 1.0, kMostRelaxed) : 1.0;
-        if (!isCertain)
-            continue;
-        march.gap = inGap < leastInGap ? gap : march.gap;
-        leastInGap = min(leastInGap, inGap);
-        march.span.x = isIn && !isMet ? t : march.span.x;
-        march.span.y = isIn ? way.y : isInside ? next : march.span.y;
-        isMet = isMet || isIn;
-        isInside = isIn;
-        t = next;
-        f = last = g;
-    }
-    return march;
-}
-
-// Asks again in the gap where the axis may run through a solid: what is thin would slip through.
-void searchGap(FieldsBlock fields, FieldCone cone, inout FieldMarch march)
-{
-    for (int i = 0; i < 2 && march.least > -1.0 && gapLeast(cone, march.gap) < min(march.least, 0.0); ++i) {
-        float t = gapLowestAt(march.gap), f = fieldDistance(fields, cone.apex + cone.axis * t), ratio = f / radiusAt(cone, t);
-        if (ratio < march.least) {
-            march.least = ratio;
-            march.at = t;
-            march.distance = f;
-        }
-        FieldGap before = FieldGap(vec2(march.gap.at.x, t), vec2(march.gap.distance.x, f));
-        FieldGap behind = FieldGap(vec2(t, march.gap.at.y), vec2(f, march.gap.distance.y));
-        march.gap = gapLowest(before) < gapLowest(behind) ? before : behind;
-    }
-}
-
-// The march of a cone that shares the wide one in which `found` was met.
-FieldMarch marchPart(FieldsBlock fields, FieldCone part, FieldCone wide, FieldMarch found, float end, float distanceHere, float tolerance)
-{
-    float start = found.span.x, apart = start * distance(wide.axis, part.axis);
-    float atLeast = start > 0.0 ? radiusAt(wide, start) - apart : distanceHere;
-    FieldMarch march = marchCone(fields, part, vec2(start, min(found.span.y, end)), atLeast, tolerance);
-    searchGap(fields, part, march);
-    return march;
-}
-
 // What every method settles before it divides: inside a solid all is dark, inside the light all is lit.
 struct FieldReceiver
 {
@@ -146,29 +46,6 @@ FieldReceiver fieldReceiver(FieldsBlock fields, vec3 p, vec3 centre, float radiu
     float distanceLight = length(to), f = fieldDistance(fields, p);
     float settled = !(f > 0.0) ? 0.0 : distanceLight <= radius * (1.0 + 1.0e-6) ? 1.0 : -1.0;
     return FieldReceiver(to / max(distanceLight, 1.0e-20), distanceLight, f, settled);
-}
-
-FieldCone coneToSphere(vec3 p, vec3 axis, float distanceLight, float radius, float radiusHere)
-{
-    return FieldCone(p, axis, radiusHere, min((radius - radiusHere) / distanceLight, 0.9999));
-}
-
-// Looks at the groups alone that reach into the cone between the apex and `end` metres along it.
-FieldsBlock fieldsInCone(FieldsBlock fields, FieldCone cone, float end)
-{
-    float cosine = sqrt((1.0 - cone.slope) * (1.0 + cone.slope));
-    uint near = 0u;
-    for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = fieldGroup(fields, g);
-        vec3 to = group.centre - cone.apex;
-        float along = dot(to, cone.axis), aside = sqrt(max(dot(to, to) - along * along, 0.0));
-        // The ball in the cone whose surface is nearest: where the way there is at right angles to the cone's side.
-        float t = clamp(along + aside * cone.slope / cosine, 0.0, end);
-        float apart = length(vec2(aside, along - t)) - cone.radius - cone.slope * t;
-        near |= apart < groupRadius(group) ? 1u << (g & 31u) : 0u;
-    }
-    fields.skipped |= ~near;
-    return fields;
 }
 
 // Places and radii of the cones that share a disc, as shares of its radius: of rings that err least for one straight edge anywhere.
@@ -204,8 +81,9 @@ FieldMarch marchSubCone(FieldsBlock fields, SubCones cones, uint k, FieldMarch w
 {
     FieldCone cone = subCone(cones, k);
     if (k > 0u || cones.count == 4u)
-        return marchPart(fields, cone, cones.wide, whole, end, distanceHere, 0.45);
+        return marchPart(fields, cone, cones.wide, whole, end, distanceHere);
     whole.least = min(whole.distance / radiusAt(cone, whole.at), 1.0);
+    refineLeast(fields, cone, whole);
     searchGap(fields, cone, whole);
     return whole;
 }
@@ -213,6 +91,8 @@ FieldMarch marchSubCone(FieldsBlock fields, SubCones cones, uint k, FieldMarch w
 float subConeLeast[kFieldMostCones];
 float subConeAt[kFieldMostCones];
 float subConeDistance[kFieldMostCones];
+
+const float kSlopeNudge = 0.3; // of the cone's radius
 
 // How the distance changes across the axis, by steps to both sides.
 struct FieldSlope
@@ -236,7 +116,45 @@ FieldSlope slopeAcross(FieldsBlock fields, vec3 p, vec3 axis, float distanceHere
 // 0 on a ridge, where the distance does not say how far an edge is; 1 where it does.
 float edgeCertainty(FieldSlope slope) { return clamp((length(slope.across) - 0.1) / 0.3, 0.0, 1.0); }
 
-const float kSlopeNudge = 0.3; // of the cone's radius
+// Where a cone is narrowest.
+struct Narrowest
+{
+    vec3 point;
+    float distance; // of the field there
+    float radius; // of the cone there
+    mat3 frame; // across its axis and along
+};
+
+Narrowest narrowest(SubCones cones, uint k)
+{
+    FieldCone cone = subCone(cones, k);
+    float at = subConeAt[k];
+    return Narrowest(cone.apex + cone.axis * at, subConeDistance[k], radiusAt(cone, at), tangentFrame(cone.axis));
+}
+
+// What is seen past the other side of what hides a cone's light, if that is thinner than the cone: from there, a radius off the axis against
+// the way in which the distance rises, the distance says how far that side is. Sixteen cones are as thin as what they could see past.
+float seenPastThin(FieldsBlock fields, Narrowest where, vec3 rise, uint count, float sine)
+{
+    if (count == kFieldMostCones)
+        return 0.0;
+    vec3 there = where.point - rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
+    return flatCapCoverage(fieldDistance(fields, there) / where.radius - 1.0, sine);
+}
+
+// What is seen in a cone that is clear in its middle; `sine` of its half angle.
+float clearSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
+{
+    const float kNearlyAll = 0.7; // what hides less is not looked past
+    float seen = flatCapCoverage(subConeLeast[k], sine);
+    if (subConeLeast[k] > kNearlyAll || cones.count == kFieldMostCones)
+        return seen;
+    Narrowest where = narrowest(cones, k);
+    float nudge = kSlopeNudge * where.radius, most = where.distance + nudge;
+    vec2 rise = vec2(fieldDistance(fields, where.point + where.frame[0] * nudge, most),
+                     fieldDistance(fields, where.point + where.frame[1] * nudge, most)) - where.distance;
+    return min(seen + seenPastThin(fields, where, where.frame * vec3(rise, 0.0), cones.count, sine), 1.0);
+}
 
 // What is seen in a cone that is blocked in its middle; `sine` of its half angle. Across the edge of a wedge the distance rises by less than
 // one goes, and the edge is as much farther. Where it is level, in the middle of what is thin, the nearest cone that is clear says how far
@@ -250,13 +168,13 @@ float blockedSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
         most = subConeLeast[j] >= 0.0 ? min(most, apart - subConeLeast[j]) : most;
     }
     most = max(most, depth);
-    FieldCone cone = subCone(cones, k);
-    vec3 at = cone.apex + cone.axis * subConeAt[k];
-    FieldSlope slope = slopeAcross(fields, at, cone.axis, subConeDistance[k], kSlopeNudge * radiusAt(cone, subConeAt[k]));
+    Narrowest where = narrowest(cones, k);
+    FieldSlope slope = slopeAcross(fields, where.point, where.frame[2], where.distance, kSlopeNudge * where.radius);
     float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
     float pastEdge = flatCapCoverage(-mix(most, min(depth / slope.greatest, most), certainty), sine);
+    float pastBoth = min(pastEdge + certainty * seenPastThin(fields, where, slope.across, cones.count, sine), 1.0);
     float besideRod = flatCapCoverage(-depth, sine) + 1.0 - flatCapCoverage(depth, sine);
-    return max(pastEdge, rod * besideRod);
+    return max(pastBoth, rod * besideRod);
 }
 
 // All that any of the methods' cones may meet: a little more than the sphere, as those that share it stand out.
@@ -289,10 +207,11 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
     }
     float seen = 0.0;
     for (uint k = 0u; k < count; ++k) {
-        float least = subConeLeast[k], sineHere = subConePlace(k, count).z * sine;
-        // What is left of a cone that is blocked farther makes no difference.
-        bool isBlocked = least < 0.0 && least > -0.95;
-        seen += isBlocked ? blockedSubConeSeen(fields, cones, k, sineHere) : flatCapCoverage(least, sineHere);
+        float sineHere = subConePlace(k, count).z * sine;
+        if (subConeLeast[k] >= 0.0)
+            seen += clearSubConeSeen(fields, cones, k, sineHere);
+        else if (subConeLeast[k] > -0.95) // what is left of a cone that is blocked farther makes no difference
+            seen += blockedSubConeSeen(fields, cones, k, sineHere);
     }
     return seen / float(count);
 }
