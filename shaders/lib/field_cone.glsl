@@ -132,28 +132,27 @@ Narrowest narrowest(SubCones cones, uint k)
     return Narrowest(cone.apex + cone.axis * at, subConeDistance[k], radiusAt(cone, at), tangentFrame(cone.axis));
 }
 
-// What is seen past the other side of what hides a cone's light, if that is thinner than the cone: from there, a radius off the axis against
-// the way in which the distance rises, the distance says how far that side is. Sixteen cones are as thin as what they could see past.
-float seenPastThin(FieldsBlock fields, Narrowest where, vec3 rise, uint count, float sine)
+// What the edges beyond the nearest one add to what is seen: light past the other side of what is thin, less what the next solid hides. The
+// distances a radius off the axis, against the way in which the distance rises and along it, say how far from there those edges are.
+float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float sine)
 {
-    if (count == kFieldMostCones)
-        return 0.0;
-    vec3 there = where.point - rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
-    return flatCapCoverage(fieldDistance(fields, there) / where.radius - 1.0, sine);
+    vec3 aside = rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
+    vec2 there = vec2(fieldDistance(fields, where.point - aside), fieldDistance(fields, where.point + aside)) / where.radius;
+    return flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine);
 }
 
 // What is seen in a cone that is clear in its middle; `sine` of its half angle.
 float clearSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
 {
-    const float kNearlyAll = 0.7; // what hides less is not looked past
+    const float kNearlyAll = 0.7; // where an edge hides less, others are not looked for
     float seen = flatCapCoverage(subConeLeast[k], sine);
-    if (subConeLeast[k] > kNearlyAll || cones.count == kFieldMostCones)
+    if (subConeLeast[k] > kNearlyAll)
         return seen;
     Narrowest where = narrowest(cones, k);
     float nudge = kSlopeNudge * where.radius, most = where.distance + nudge;
     vec2 rise = vec2(fieldDistance(fields, where.point + where.frame[0] * nudge, most),
                      fieldDistance(fields, where.point + where.frame[1] * nudge, most)) - where.distance;
-    return min(seen + seenPastThin(fields, where, where.frame * vec3(rise, 0.0), cones.count, sine), 1.0);
+    return clamp(seen + seenPastNextEdges(fields, where, where.frame * vec3(rise, 0.0), sine), 0.0, 1.0);
 }
 
 // What is seen in a cone that is blocked in its middle; `sine` of its half angle. Across the edge of a wedge the distance rises by less than
@@ -172,9 +171,9 @@ float blockedSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
     FieldSlope slope = slopeAcross(fields, where.point, where.frame[2], where.distance, kSlopeNudge * where.radius);
     float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
     float pastEdge = flatCapCoverage(-mix(most, min(depth / slope.greatest, most), certainty), sine);
-    float pastBoth = min(pastEdge + certainty * seenPastThin(fields, where, slope.across, cones.count, sine), 1.0);
+    float pastEdges = clamp(pastEdge + certainty * seenPastNextEdges(fields, where, slope.across, sine), 0.0, 1.0);
     float besideRod = flatCapCoverage(-depth, sine) + 1.0 - flatCapCoverage(depth, sine);
-    return max(pastBoth, rod * besideRod);
+    return max(pastEdges, rod * besideRod);
 }
 
 // All that any of the methods' cones may meet: a little more than the sphere, as those that share it stand out.

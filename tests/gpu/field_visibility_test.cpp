@@ -15,6 +15,7 @@ constexpr std::string_view kMethods[] = {"QUILEZ", "AALTONEN", "ONE_CONE", "SUB_
 const SDFPrimitive kFloor{.shape = SDFShape::Plane};
 
 SDFPrimitive ball(vec3 centre, float radius) { return {.shape = SDFShape::Sphere, .centre = centre, .radius = radius}; }
+SDFPrimitive rod(vec3 from, vec3 to, float radius) { return {.shape = SDFShape::Capsule, .centre = from, .end = to, .radius = radius}; }
 SDFPrimitive box(vec3 centre, vec3 half) { return {.shape = SDFShape::Box, .centre = centre, .halfExtent = half}; }
 
 /// A point and a light before a field, and what is seen where that is certain.
@@ -169,6 +170,40 @@ TEST_F(FieldVisibility, PenumbrasHaveNoBands)
         EXPECT_LT(profileOf(device(), {ball({0, 2, 0}, 0.5f)}, cones).roughest, 0.03) << "ball " << cones;
         EXPECT_LT(profileOf(device(), {box({2, 2, 0}, {2, 0.01f, 4})}, cones).roughest, 0.75 * share) << "sheet " << cones;
     }
+}
+
+/// Share of a disc of radius 1 up to `x` from its middle.
+double discUpTo(double x)
+{
+    x = std::clamp(x, -1.0, 1.0);
+    return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
+}
+
+// Thinner than a cone: what is seen past both sides counts. Truth is the band that a rod hides of the light's disc.
+TEST_F(FieldVisibility, ThinRodsHideABand)
+{
+    constexpr int kSteps = 81;
+    for (const auto& [cones, bound] : {std::pair(4u, 0.03), std::pair(7u, 0.02), std::pair(16u, 0.01)})
+        for (const float radius : {0.01f, 0.03f, 0.06f}) {
+            std::vector<FieldSteps> fields;
+            std::vector<FieldAsk> asks;
+            std::vector<double> truth;
+            for (int i = 0; i < kSteps; ++i) {
+                const float aside = -0.6f + 1.2f * static_cast<float>(i) / (kSteps - 1);
+                fields.push_back(fieldOf({kFloor, rod({-4, 2.5f, aside}, {4, 2.5f, aside}, radius)}));
+                asks.push_back({{0, 0.002f, 0}, {0, 5, 0}, 1, cones, {}});
+                const double middle = std::atan2(aside, 2.498), half = std::asin(radius / std::hypot(2.498, aside)), sine = 1 / 4.998;
+                truth.push_back(1 - discUpTo(std::sin(middle + half) / sine) + discUpTo(std::sin(middle - half) / sine));
+            }
+            const FieldUpload uploaded(device(), fields);
+            for (int i = 0; i < kSteps; ++i)
+                asks[i].fields = uploaded[i];
+            const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, "SUB_CONES", asks);
+            double sum = 0;
+            for (int i = 0; i < kSteps; ++i)
+                sum += std::pow(said[i].value - truth[i], 2);
+            EXPECT_LT(std::sqrt(sum / kSteps), bound) << cones << " cones, " << radius << " m";
+        }
 }
 
 TEST_F(FieldVisibility, ThinSheetsHideWhatIsBehindThem)
