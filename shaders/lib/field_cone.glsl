@@ -141,7 +141,8 @@ float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float si
     return flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine);
 }
 
-// What is seen in a cone that is clear in its middle; `sine` of its half angle.
+// What is seen in a cone that is clear in its middle; `sine` of its half angle. Out of solids there is no ridge, and steps to one side tell how
+// the distance changes: half the looks of slopeAcross.
 float clearSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
 {
     const float kNearlyAll = 0.7; // where an edge hides less, others are not looked for

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace antumbra {
 namespace {
@@ -19,12 +20,12 @@ using testing::StartsWith;
 class FileTest : public testing::Test
 {
 protected:
-    FileTest()
+    void SetUp() override
     {
-        std::string form = (std::filesystem::temp_directory_path() / "antumbra-XXXXXX").string();
-        folder_ = mkdtemp(form.data());
+        folder_ = Path(testing::TempDir()) / ("antumbra_file_" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder_);
     }
-    ~FileTest() override { std::filesystem::remove_all(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
 
     [[nodiscard]] Path at(std::string_view name) const { return folder_ / name; }
 
