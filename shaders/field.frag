@@ -31,6 +31,7 @@ layout(location = 3) out vec4 outSteps;
 
 void main()
 {
+    holdSteps(pc.fields);
     vec3 ray = fromEye(frameBlock, gl_FragCoord.xy, 1.0);
     float metresADepth = length(ray);
     vec3 direction = ray / metresADepth;

@@ -40,6 +40,7 @@ vec2 wayAmong(FieldsBlock fields, vec3 eye)
 
 void main()
 {
+    holdSteps(pc.fields);
     uint tile = uint(gl_VertexIndex) / 6u, k = uint(gl_VertexIndex) % 6u;
     vec2 corner = vec2((pc.firstTile + uvec2(tile % pc.tilesAcross, tile / pc.tilesAcross)) * kFieldTileSize);
     FieldCone cone = coneOfRays(corner);

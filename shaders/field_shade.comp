@@ -104,6 +104,7 @@ vec3 outOfBones(FieldsBlock fields, vec3 p, vec3 normal, float clear, bool isSki
 
 void main()
 {
+    holdSteps(pc.fields);
     ivec2 litPixel = ivec2(spreadInvocation(kAreaGroupHeight)), extent = textureSize(sampledImages[pc.depth], 0);
     ivec2 pixel = litAt(litPixel, pc.pixelScale, extent);
     bool isInside = litPixel.x < int(pc.litWidth) && litPixel.y < int(pc.litHeight);

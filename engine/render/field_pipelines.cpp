@@ -14,6 +14,8 @@ gpu::Pipeline makePipeline(gpu::Device& device, const FieldPipelineKey& key)
     std::ranges::copy_if(shader.defines, std::back_inserter(defines), [](const gpu::ShaderDefine& define) { return !define.name.empty(); });
     if (!key.structure.empty())
         defines.push_back({.name = "FIELD_STRUCTURE", .text = key.structure});
+    if (!key.structure.empty() && device.info().isCpu) // what a CPU device reads in a loop it gathers each time; a GPU's registers are few
+        defines.push_back({.name = "HOLDS_STEPS"});
     if (!shader.isDrawn())
         return computePipeline(device, shader.file, defines);
     const auto end = std::ranges::find(shader.colorFormats, gpu::Format::Undefined);

@@ -1,7 +1,7 @@
 // Signed distance to solids that are put together step by step (Hart 1996; golden/README.md, sdf.json). Nowhere does the distance change
 // faster than one looks for it: shapes are exact in their own space and scaled by the least of their stretches, and no operation adds to the
 // slope. So a ball of that radius is always clear, and what steps by it never goes through anything. FIELD_STRUCTURE, where it is defined, is
-// the walk through the steps written out (render/field_structure.h).
+// the walk through the steps written out (render/field_structure.h); with HOLDS_STEPS too, each thread reads them once, to have them at hand.
 #ifndef LIB_FIELD_GLSL
 #define LIB_FIELD_GLSL
 
@@ -87,8 +87,22 @@ float fieldCombined(FieldStepBlock s, float before, float own)
 
 FieldGroupBlock fieldGroup(FieldsBlock fields, uint g) { return FieldGroups(fields.groups).group[g]; }
 
-// The i-th of what is written out.
 FieldStepBlock fieldStep(FieldsBlock fields, uint i) { return FieldSteps(fields.steps).step[i]; }
+
+#ifdef HOLDS_STEPS
+#define FIELD_BEGINS
+#define FIELD_STEP(i, operation, share, distance) + 1
+FieldStepBlock heldSteps[0 FIELD_STRUCTURE];
+#undef FIELD_STEP
+#define FIELD_STEP(i, operation, share, distance) heldSteps[i] = fieldStep(fields, i);
+void holdSteps(FieldsBlock fields) { FIELD_STRUCTURE }
+#undef FIELD_STEP
+#undef FIELD_BEGINS
+FieldStepBlock writtenStep(FieldsBlock fields, uint i) { return heldSteps[i]; }
+#else
+void holdSteps(FieldsBlock fields) {} // before any other function is called
+FieldStepBlock writtenStep(FieldsBlock fields, uint i) { return fieldStep(fields, i); }
+#endif
 
 // Of a sphere about all that the group holds and melts with, metres.
 float groupRadius(FieldGroupBlock group) { return group.reach / max(group.slope, 1.0e-6); }
@@ -106,15 +120,14 @@ bool mattersAt(FieldGroupBlock group, vec3 p, float so, float most)
 
 // Of all fields together, where that is no more than `most`: it changes no faster than one goes, so who knows it nearby need not ask what is
 // farther. The walk through the steps passes by groups that are not looked at or do not matter: loops that go round for nobody, which is what
-// spares CPU devices the work. Written out, all steps are worked off: what they read is read once for all evaluations, which is faster than to
-// pass by any.
+// spares CPU devices the work. Written out, all steps are worked off, which is faster than to pass by any.
 float fieldDistance(FieldsBlock fields, vec3 p, float most)
 {
     ++fieldEvaluations;
     float whole = kFieldFar, so = kFieldFar;
 #ifdef FIELD_STRUCTURE
 #define FIELD_BEGINS whole = min(whole, so); so = kFieldFar;
-#define FIELD_STEP(i, operation, share, distance) so = operation(so, distance(fieldStep(fields, i), p), fieldStep(fields, i).blend);
+#define FIELD_STEP(i, operation, share, distance) so = operation(so, distance(writtenStep(fields, i), p), writtenStep(fields, i).blend);
     FIELD_STRUCTURE
 #undef FIELD_BEGINS
 #undef FIELD_STEP

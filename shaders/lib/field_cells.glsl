@@ -108,10 +108,11 @@ float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch f
     float end;
     FieldCone cone = coneOfPolygon(light, kCell, end);
     FieldMarch march = marchPart(fields, cone, wide, found, end, light.distanceHere);
-    if (march.least >= 1.0 || march.least <= -1.0)
+    bool isCut = abs(march.least) < 1.0;
+    FieldSlope slope = slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance,
+                                   kSlopeNudge * radiusAt(cone, march.at), isCut ? 4 : 0);
+    if (!isCut)
         return march.least > 0.0 ? whole : 0.0;
-    FieldSlope slope =
-        slopeAcross(fields, cone.apex + cone.axis * march.at, cone.axis, march.distance, kSlopeNudge * radiusAt(cone, march.at));
     cut(kCell, crossingOf(kCell, edgePlane(cone, march, slope) * light.frame), kCellSeen, kCell, false, true);
     float seen = clamp(formFactor(kCellSeen, true), 0.0, whole);
     return mix(march.least > 0.0 ? whole : 0.0, seen, edgeCertainty(slope));

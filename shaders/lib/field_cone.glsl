@@ -94,23 +94,27 @@ float subConeDistance[kFieldMostCones];
 
 const float kSlopeNudge = 0.3; // of the cone's radius
 
-// How the distance changes across the axis, by steps to both sides.
+// How the distance changes across the axis.
 struct FieldSlope
 {
     vec3 across; // in both ways alike: short on a ridge, in the middle of what is thin
     float greatest; // on one side
 };
 
-FieldSlope slopeAcross(FieldsBlock fields, vec3 p, vec3 axis, float distanceHere, float nudge)
+// By steps to both sides, 4 looks; by 2 to one side, which tell as much where there is no ridge, as out of solids; none where it does not
+// matter. `frame` is across the axis and along.
+FieldSlope slopeAcross(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, float nudge, int looks)
 {
-    mat3 frame = tangentFrame(axis);
-    vec2 change[2] = vec2[2](vec2(0.0), vec2(0.0));
-    for (int i = 0; i < 4; ++i) {
-        float there = fieldDistance(fields, p + frame[i & 1] * (i < 2 ? nudge : -nudge), distanceHere + nudge);
-        change[i >> 1][i & 1] = (there - distanceHere) / nudge;
+    vec2 rise = vec2(0.0), fall = vec2(0.0);
+    for (int i = 0; i < looks; ++i) {
+        vec3 way = (i & 1) == 0 ? frame[0] : frame[1];
+        float there = fieldDistance(fields, p + way * (i < 2 ? nudge : -nudge), distanceHere + nudge);
+        vec2 change = (there - distanceHere) / nudge * vec2((i & 1) == 0, (i & 1) == 1);
+        rise += i < 2 ? change : vec2(0.0);
+        fall += i < 2 ? vec2(0.0) : change;
     }
-    vec2 across = 0.5 * (change[0] - change[1]);
-    return FieldSlope(frame[0] * across.x + frame[1] * across.y, clamp(length(max(abs(change[0]), abs(change[1]))), 0.05, 1.0));
+    vec2 across = looks == 2 ? rise : 0.5 * (rise - fall);
+    return FieldSlope(frame[0] * across.x + frame[1] * across.y, clamp(length(max(abs(rise), abs(fall))), 0.05, 1.0));
 }
 
 // 0 on a ridge, where the distance does not say how far an edge is; 1 where it does.
@@ -133,48 +137,50 @@ Narrowest narrowest(SubCones cones, uint k)
 }
 
 // What the edges beyond the nearest one add to what is seen: light past the other side of what is thin, less what the next solid hides. The
-// distances a radius off the axis, against the way in which the distance rises and along it, say how far from there those edges are.
-float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float sine)
+// distances a radius off the axis, against the way in which the distance rises and along it, say how far from there those edges are. Nothing
+// where it is not wanted, without the work.
+float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float sine, bool isWanted)
 {
     vec3 aside = rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
-    vec2 there = vec2(fieldDistance(fields, where.point - aside), fieldDistance(fields, where.point + aside)) / where.radius;
-    return flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine);
+    vec2 there = vec2(0.0);
+    int looks = isWanted ? 2 : 0;
+    for (int i = 0; i < looks; ++i)
+        there += fieldDistance(fields, where.point + (i == 0 ? -aside : aside)) / where.radius * vec2(i == 0, i == 1);
+    return isWanted ? flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine) : 0.0;
 }
 
-// What is seen in a cone that is clear in its middle; `sine` of its half angle. Out of solids there is no ridge, and steps to one side tell how
-// the distance changes: half the looks of slopeAcross.
-float clearSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
+// How far a solid that blocks the k-th cone reaches at most into it, as a share of its radius: the nearest cone that is clear says so.
+float farthestEdge(SubCones cones, uint k)
 {
-    const float kNearlyAll = 0.7; // where an edge hides less, others are not looked for
-    float seen = flatCapCoverage(subConeLeast[k], sine);
-    if (subConeLeast[k] > kNearlyAll)
-        return seen;
-    Narrowest where = narrowest(cones, k);
-    float nudge = kSlopeNudge * where.radius, most = where.distance + nudge;
-    vec2 rise = vec2(fieldDistance(fields, where.point + where.frame[0] * nudge, most),
-                     fieldDistance(fields, where.point + where.frame[1] * nudge, most)) - where.distance;
-    return clamp(seen + seenPastNextEdges(fields, where, where.frame * vec3(rise, 0.0), sine), 0.0, 1.0);
-}
-
-// What is seen in a cone that is blocked in its middle; `sine` of its half angle. Across the edge of a wedge the distance rises by less than
-// one goes, and the edge is as much farther. Where it is level, in the middle of what is thin, the nearest cone that is clear says how far
-// the solid reaches at most; but a rod, from which it rises steeply to both sides, hides no more than a band.
-float blockedSubConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
-{
-    float depth = -subConeLeast[k], most = 1.0;
+    float most = 1.0;
     vec3 place = subConePlace(k, cones.count);
     for (uint j = 0u; j < cones.count; ++j) {
         float apart = distance(place.xy, subConePlace(j, cones.count).xy) / place.z;
         most = subConeLeast[j] >= 0.0 ? min(most, apart - subConeLeast[j]) : most;
     }
-    most = max(most, depth);
+    return max(most, -subConeLeast[k]);
+}
+
+// What is seen in a cone; `sine` of its half angle. Where its middle is blocked: across the edge of a wedge the distance rises by less than
+// one goes, and the edge is as much farther. Where it is level, in the middle of what is thin, the solid reaches as far as it can; but a rod,
+// from which it rises steeply to both sides, hides no more than a band.
+float subConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
+{
+    const float kNearlyAll = 0.7; // where an edge hides less, others are not looked for
+    const float kNearlyNone = -0.95; // what is left of a cone that is blocked farther makes no difference
+    float least = subConeLeast[k];
+    bool isClear = least >= 0.0, isCut = least <= kNearlyAll && least > kNearlyNone;
     Narrowest where = narrowest(cones, k);
-    FieldSlope slope = slopeAcross(fields, where.point, where.frame[2], where.distance, kSlopeNudge * where.radius);
+    FieldSlope slope =
+        slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, !isCut ? 0 : isClear ? 2 : 4);
+    float beyond = seenPastNextEdges(fields, where, slope.across, sine, isCut), seen = flatCapCoverage(least, sine);
+    if (isClear || !isCut)
+        return isClear ? clamp(seen + beyond, 0.0, 1.0) : 0.0;
     float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
-    float pastEdge = flatCapCoverage(-mix(most, min(depth / slope.greatest, most), certainty), sine);
-    float pastEdges = clamp(pastEdge + certainty * seenPastNextEdges(fields, where, slope.across, sine), 0.0, 1.0);
-    float besideRod = flatCapCoverage(-depth, sine) + 1.0 - flatCapCoverage(depth, sine);
-    return max(pastEdges, rod * besideRod);
+    float farthest = farthestEdge(cones, k);
+    float pastEdge = flatCapCoverage(-mix(farthest, min(-least / slope.greatest, farthest), certainty), sine);
+    float besideRod = seen + 1.0 - flatCapCoverage(-least, sine);
+    return max(clamp(pastEdge + certainty * beyond, 0.0, 1.0), rod * besideRod);
 }
 
 // All that any of the methods' cones may meet: a little more than the sphere, as those that share it stand out.
@@ -206,13 +212,8 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
         subConeDistance[k] = part.distance;
     }
     float seen = 0.0;
-    for (uint k = 0u; k < count; ++k) {
-        float sineHere = subConePlace(k, count).z * sine;
-        if (subConeLeast[k] >= 0.0)
-            seen += clearSubConeSeen(fields, cones, k, sineHere);
-        else if (subConeLeast[k] > -0.95) // what is left of a cone that is blocked farther makes no difference
-            seen += blockedSubConeSeen(fields, cones, k, sineHere);
-    }
+    for (uint k = 0u; k < count; ++k)
+        seen += subConeSeen(fields, cones, k, subConePlace(k, count).z * sine);
     return seen / float(count);
 }
 

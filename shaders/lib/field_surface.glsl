@@ -105,9 +105,9 @@ FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
 #ifdef FIELD_STRUCTURE
 #define FIELD_BEGINS shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0); whole = min(whole, so); so = kFieldFar;
 #define FIELD_STEP(i, operation, share, distance) \
-    own = distance(fieldStep(fields, i), p); \
-    made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], share(so, own, fieldStep(fields, i).blend)); \
-    so = operation(so, own, fieldStep(fields, i).blend);
+    own = distance(writtenStep(fields, i), p); \
+    made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], share(so, own, writtenStep(fields, i).blend)); \
+    so = operation(so, own, writtenStep(fields, i).blend);
     FIELD_STRUCTURE
 #undef FIELD_BEGINS
 #undef FIELD_STEP
