@@ -13,7 +13,7 @@
 layout(push_constant, scalar) uniform Push { FieldDraw pc; };
 
 layout(location = 0) flat in vec2 inWay; // as field.vert has them
-layout(location = 1) flat in uint inSkipped;
+layout(location = 1) flat in uvec2 inSkipped;
 
 layout(location = 0) out vec4 outNormals; // octahedral: geometric, shading
 layout(location = 1) out vec4 outAlbedo; // a: 1 for what moves
@@ -42,9 +42,10 @@ void main()
     FieldHit hit = traceField(fields, frameBlock.eye, direction, way.x, way.y, 0.3 * pixel);
     bool isHit = hit.at > 0.0;
     vec3 position = frameBlock.eye + direction * max(hit.at, 0.0);
-    vec3 normal = fieldNormal(fields, position, 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5, isHit);
+    float width = 0.2 * pixel * max(hit.at, 0.0) + 1.0e-5;
+    vec3 normal = fieldNormal(fields, position, width, isHit);
     normal = dot(normal, direction) > 0.0 ? -normal : normal; // the side that is seen is the side that is lit
-    FieldSurfaceBlock surface = fieldSurface(fields, position, isHit);
+    FieldSurfaceBlock surface = fieldSurface(fields, position, 2.0 * width, isHit);
 
     gl_FragDepth = isHit ? clamp(frameBlock.near * metresADepth / hit.at, 0.0, 1.0) : 0.0;
     outNormals = vec4(octahedralFromUnit(normal), octahedralFromUnit(normal));

@@ -11,7 +11,7 @@
 layout(push_constant, scalar) uniform Push { FieldDraw pc; };
 
 layout(location = 0) flat out vec2 outWay; // metres along any of the rays: between these something may be met
-layout(location = 1) flat out uint outSkipped; // groups, as in FieldsBlock
+layout(location = 1) flat out uvec2 outSkipped; // groups, as in FieldsBlock
 
 const uint kMarchSteps = 32u;
 
@@ -46,11 +46,14 @@ void main()
     FieldCone cone = coneOfRays(corner);
     FieldsBlock fields = fieldsInCone(pc.fields, cone, kFieldFarthestSeen);
     vec2 way = wayAmong(fields, cone.apex);
+    float last = kFieldFar, step = 0.0;
     bool isClear = true;
     for (uint i = 0u; i < kMarchSteps && isClear && way.x < way.y; ++i) {
-        float clear = fieldDistance(fields, cone.apex + cone.axis * way.x) - radiusAt(cone, way.x);
+        last = fieldDistance(fields, cone.apex + cone.axis * way.x, last + step);
+        float clear = last - radiusAt(cone, way.x);
         isClear = clear > 0.01 * radiusAt(cone, way.x);
-        way.x += isClear ? clear / (1.0 + cone.slope) : 0.0;
+        step = isClear ? clear / (1.0 + cone.slope) : 0.0;
+        way.x += step;
     }
     outWay = way;
     outSkipped = fields.skipped;

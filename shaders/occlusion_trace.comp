@@ -241,7 +241,7 @@ Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 #ifdef FIELDS
     // Where the camera sees a field it is up to a part of a pixel off its surface, on either side: rays begin outside.
     float halfPixel = 0.5 * length(frameBlock.rayX) * frameBlock.near / depth;
-    position += max(halfPixel - abs(fieldDistance(Fields(pc.fields).block, position)), 0.0) * geometricNormal;
+    position += max(halfPixel - abs(fieldDistance(Fields(pc.fields).block, position, halfPixel)), 0.0) * geometricNormal;
 #endif
     return Receiver(rayOrigin(position, geometricNormal, frameBlock.eye), normal, turnedFrame(normal, rotation));
 }

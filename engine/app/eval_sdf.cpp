@@ -59,6 +59,7 @@ shader::FieldCase deviceCase(const EvalCase& each, FieldBlocks& blocks)
     }
     render::writeGroups(steps, groups);
     made.fields.groupCount = static_cast<uint32_t>(groups.size());
+    made.fields.takesAway = render::takesAway(groups);
     for (shader::FieldGroupBlock& group : groups) {
         group.firstStep += static_cast<uint32_t>(blocks.steps.size());
         group.endStep += static_cast<uint32_t>(blocks.steps.size());

@@ -294,15 +294,17 @@ void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBl
 {
     groups.clear();
     const auto begins = [&](uint32_t i) { return (steps[i].flags & shader::kFieldBegins) != 0; };
+    uint32_t field = 0;
     for (uint32_t i = 0; i < steps.size(); ++i) {
+        field += i > 0 && begins(i) ? 1 : 0;
         // What a field begins with keeps its place and stands alone, so that groups are those that FieldOrder puts together.
         const bool isOpen = !groups.empty() && !isEverywhere(steps[i]) && !isEverywhere(steps[i - 1]) && !begins(i) && !begins(i - 1) &&
                             isUnion(steps[i]) == isUnion(steps[i - 1]) &&
                             groups.back().endStep - groups.back().firstStep < shader::kFieldGroupSteps;
         if (!isOpen)
-            groups.push_back({.firstStep = i, .endStep = i, .flags = steps[i].flags});
+            groups.push_back({.firstStep = i, .endStep = i, .field = field});
         groups.back().endStep = i + 1;
-        groups.back().flags |= takesAway(steps[i]) ? shader::kFieldTakesAway : 0u;
+        groups.back().takesAway |= takesAway(steps[i]) ? 1u : 0u;
     }
     float melt = 0;
     for (FieldGroupBlock& group : std::views::reverse(groups)) {
@@ -311,8 +313,13 @@ void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBl
             melt = std::max(melt, step.blend);
         boundGroup(group, own);
         group.melt = melt;
-        melt = (group.flags & shader::kFieldBegins) != 0 ? 0 : melt;
+        melt = begins(group.firstStep) ? 0 : melt;
     }
+}
+
+uint32_t takesAway(std::span<const FieldGroupBlock> groups)
+{
+    return std::ranges::any_of(groups, [](const FieldGroupBlock& group) { return group.takesAway != 0; }) ? 1 : 0;
 }
 
 void writeParts(std::span<const FieldStepBlock> steps, std::span<const FieldGroupBlock> groups, std::vector<FieldPart>& parts)

@@ -32,6 +32,9 @@ FieldBound boundOf(const shader::FieldStepBlock& step);
 /// `groups`.
 void writeGroups(std::span<const shader::FieldStepBlock> steps, std::vector<shader::FieldGroupBlock>& groups);
 
+/// As FieldsBlock has it.
+uint32_t takesAway(std::span<const shader::FieldGroupBlock> groups);
+
 /// Groups [first, end) whose solid is joined to all others by plain unions, so that each can be looked at alone.
 struct FieldPart
 {

@@ -112,8 +112,9 @@ FieldFrame Fields::copyShown()
     const shader::FieldsBlock all{.steps = frameCopy(*device_, shown_.steps),
                                   .groups = frameCopy(*device_, shown_.groups),
                                   .surfaces = frameCopy(*device_, shown_.surfaces),
+                                  .skipped = uvec2(0),
                                   .groupCount = static_cast<uint32_t>(shown_.groups.size()),
-                                  .skipped = 0};
+                                  .takesAway = takesAway(shown_.groups)};
     shader::FieldsBlock seen = all;
     seen.groupCount = shown_.seenGroups;
     for (Part& part : shown_.drawn()) {

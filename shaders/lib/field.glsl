@@ -107,20 +107,71 @@ FieldStepBlock writtenStep(FieldsBlock fields, uint i) { return fieldStep(fields
 // Of a sphere about all that the group holds and melts with, metres.
 float groupRadius(FieldGroupBlock group) { return group.reach / max(group.slope, 1.0e-6); }
 
-bool isLookedAt(FieldsBlock fields, uint g) { return (fields.skipped >> (g & 31u) & 1u) == 0u; }
+// Sets of 64 groups in a row, as bits: the (g % 64)th stands for the g-th.
+const uint kGroupsInSet = 64u;
 
-// Whether steps of the group can change the distance so far, where that is known to end at no more than `most`. What is farther by the width
-// over which things melt does not, nor what melts with that.
-bool mattersAt(FieldGroupBlock group, vec3 p, float so, float most)
+uvec2 setOfGroup(uint g) { return (g & 32u) == 0u ? uvec2(1u << (g & 31u), 0u) : uvec2(0u, 1u << (g & 31u)); }
+
+bool isLookedAt(FieldsBlock fields, uint g) { return (setOfGroup(g) & ~fields.skipped) != uvec2(0u); }
+
+// From the g-th on, the first that is looked at; or one that is not, with none before it.
+uint nextLookedAt(FieldsBlock fields, uint g)
 {
-    float outside = group.slope * length(max(abs(p - group.centre) - group.halfEdges, 0.0));
-    bool takesAway = (group.flags & kFieldTakesAway) != 0u;
-    return outside < abs(so) + group.melt && (takesAway || outside <= max(most, 0.0) + 2.5 * group.melt);
+    uint bits = ~((g & 32u) == 0u ? fields.skipped.x : fields.skipped.y) & (~0u << (g & 31u));
+    return bits != 0u ? (g & ~31u) + uint(findLSB(bits)) : (g | 31u) + 1u;
 }
 
-// Of all fields together, where that is no more than `most`: it changes no faster than one goes, so who knows it nearby need not ask what is
-// farther. The walk through the steps passes by groups that are not looked at or do not matter: loops that go round for nobody, which is what
-// spares CPU devices the work. Written out, all steps are worked off, which is faster than to pass by any.
+// What the distance is at most, by the steps of one group near by. Where things are taken away there may be nothing; where steps are written
+// out nobody asks.
+float farthestDistance(FieldsBlock fields, vec3 p)
+{
+    float most = kFieldFar;
+#ifndef FIELD_STRUCTURE
+    uvec2 steps = uvec2(0u);
+    float least = kFieldFar;
+    for (uint g = nextLookedAt(fields, 0u); g < fields.groupCount; g = nextLookedAt(fields, g + 1u)) {
+        FieldGroupBlock group = fieldGroup(fields, g);
+        float away = distance(group.centre, p);
+        bool isNearer = away < least && isLookedAt(fields, g);
+        least = isNearer ? away : least;
+        steps = isNearer ? uvec2(group.firstStep, group.endStep) : steps;
+    }
+    for (uint i = steps.x; i < steps.y; ++i)
+        most = min(most, fieldShape(fieldStep(fields, i), p));
+#endif
+    return fields.takesAway == 0u ? most : kFieldFar;
+}
+
+// Whether steps of the group can change the distance, where that is known to be no more than `most`: what is farther by the width over which
+// things melt does not, nor what melts with that. What takes away changes it from afar, inside solids.
+bool mattersAt(FieldGroupBlock group, vec3 p, float most)
+{
+    float outside = group.slope * length(max(abs(p - group.centre) - group.halfEdges, 0.0));
+    return outside <= max(most, 0.0) + 2.5 * group.melt || group.takesAway != 0u;
+}
+
+// Of those that are looked at, in the set that begins with the group `first`.
+uvec2 groupsThatMatter(FieldsBlock fields, uint first, vec3 p, float most)
+{
+    uvec2 set = uvec2(0u);
+    uint end = min(first + kGroupsInSet, fields.groupCount);
+    most = most * 1.0001 + 1.0e-5; // rounding
+    for (uint g = nextLookedAt(fields, first); g < end; g = nextLookedAt(fields, g + 1u))
+        set |= isLookedAt(fields, g) && mattersAt(fieldGroup(fields, g), p, most) ? setOfGroup(g) : uvec2(0u);
+    return set;
+}
+
+// Takes the first out of the set, which is not empty and begins with the group `first`.
+FieldGroupBlock takeGroup(FieldsBlock fields, uint first, inout uvec2 set)
+{
+    uint g = set.x != 0u ? uint(findLSB(set.x)) : 32u + uint(findLSB(set.y));
+    set = set.x != 0u ? uvec2(set.x & (set.x - 1u), set.y) : uvec2(0u, set.y & (set.y - 1u));
+    return fieldGroup(fields, first + g);
+}
+
+// Of all fields together, where that is no more than `most`, else anything that is more: it changes no faster than one goes, so who knows it
+// nearby need not ask what is farther. The walk goes step by step through the groups that matter, without a loop for each: CPU devices work
+// off a loop's body for nobody too. Written out, all steps are worked off, which is faster than to pass by any.
 float fieldDistance(FieldsBlock fields, vec3 p, float most)
 {
     ++fieldEvaluations;
@@ -132,20 +183,26 @@ float fieldDistance(FieldsBlock fields, vec3 p, float most)
 #undef FIELD_BEGINS
 #undef FIELD_STEP
 #else
-    most = most * 1.0001 + 1.0e-5; // rounding
-    for (uint g = 0u; g < fields.groupCount; ++g) {
-        FieldGroupBlock group = fieldGroup(fields, g);
-        bool begins = (group.flags & kFieldBegins) != 0u;
-        whole = begins ? min(whole, so) : whole;
-        so = begins ? kFieldFar : so;
-        uint end = isLookedAt(fields, g) && mattersAt(group, p, so, min(most, whole)) ? group.endStep : group.firstStep;
-        for (uint i = group.firstStep; i < end; ++i)
-            so = fieldCombined(fieldStep(fields, i), so, fieldShape(fieldStep(fields, i), p));
+    uint field = 0u;
+    for (uint first = 0u; first < fields.groupCount; first += kGroupsInSet) {
+        uvec2 set = groupsThatMatter(fields, first, p, most);
+        for (uint i = 0u, end = 0u; i < end || set != uvec2(0u); ++i) {
+            if (i == end) {
+                FieldGroupBlock group = takeGroup(fields, first, set);
+                whole = group.field != field ? min(whole, so) : whole;
+                so = group.field != field ? kFieldFar : so;
+                field = group.field;
+                i = group.firstStep;
+                end = group.endStep;
+            }
+            FieldStepBlock s = fieldStep(fields, i);
+            so = fieldCombined(s, so, fieldShape(s, p));
+        }
     }
 #endif
     return min(whole, so);
 }
 
-float fieldDistance(FieldsBlock fields, vec3 p) { return fieldDistance(fields, p, kFieldFar); }
+float fieldDistance(FieldsBlock fields, vec3 p) { return fieldDistance(fields, p, farthestDistance(fields, p)); }
 
 #endif

@@ -110,7 +110,7 @@ float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch f
     FieldMarch march = marchPart(fields, cone, wide, found, end, light.distanceHere);
     bool isCut = abs(march.least) < 1.0;
     FieldSlope slope = slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance,
-                                   kSlopeNudge * radiusAt(cone, march.at), isCut ? 4 : 0);
+                                   kSlopeNudge * radiusAt(cone, march.at), false, isCut);
     if (!isCut)
         return march.least > 0.0 ? whole : 0.0;
     cut(kCell, crossingOf(kCell, edgePlane(cone, march, slope) * light.frame), kCellSeen, kCell, false, true);
@@ -129,7 +129,8 @@ float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint co
     CellLight light = CellLight(p, distanceHere, frame, plane);
     float end;
     FieldCone cone = coneOfPolygon(light, kCellLight, end);
-    FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, kWideTolerance);
+    fields = fieldsInCone(fields, FieldCone(p, cone.axis, cone.radius, min(1.2 * cone.slope, 0.9999)), 1.2 * end);
+    FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, farthestDistance(fields, p), kWideTolerance);
     if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? 1.0 : 0.0;
     CellGrid grid = cellGrid(kCellLight, count);

@@ -101,19 +101,23 @@ struct FieldSlope
     float greatest; // on one side
 };
 
-// By steps to both sides, 4 looks; by 2 to one side, which tell as much where there is no ridge, as out of solids; none where it does not
-// matter. `frame` is across the axis and along.
-FieldSlope slopeAcross(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, float nudge, int looks)
+// How much more it is a step away in either way across the axis.
+vec2 changeAside(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, float step)
+{
+    float most = distanceHere + abs(step);
+    return vec2(fieldDistance(fields, p + frame[0] * step, most), fieldDistance(fields, p + frame[1] * step, most)) - distanceHere;
+}
+
+// By steps to both sides; or to one side, which tells as much where there is no ridge, as out of solids; level where it is not wanted.
+// `frame` is across the axis and along.
+FieldSlope slopeAcross(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, float nudge, bool isOneSided, bool isWanted)
 {
     vec2 rise = vec2(0.0), fall = vec2(0.0);
-    for (int i = 0; i < looks; ++i) {
-        vec3 way = (i & 1) == 0 ? frame[0] : frame[1];
-        float there = fieldDistance(fields, p + way * (i < 2 ? nudge : -nudge), distanceHere + nudge);
-        vec2 change = (there - distanceHere) / nudge * vec2((i & 1) == 0, (i & 1) == 1);
-        rise += i < 2 ? change : vec2(0.0);
-        fall += i < 2 ? vec2(0.0) : change;
-    }
-    vec2 across = looks == 2 ? rise : 0.5 * (rise - fall);
+    if (isWanted)
+        rise = changeAside(fields, p, frame, distanceHere, nudge) / nudge;
+    if (isWanted && !isOneSided)
+        fall = changeAside(fields, p, frame, distanceHere, -nudge) / nudge;
+    vec2 across = isOneSided ? rise : 0.5 * (rise - fall);
     return FieldSlope(frame[0] * across.x + frame[1] * across.y, clamp(length(max(abs(rise), abs(fall))), 0.05, 1.0));
 }
 
@@ -137,16 +141,15 @@ Narrowest narrowest(SubCones cones, uint k)
 }
 
 // What the edges beyond the nearest one add to what is seen: light past the other side of what is thin, less what the next solid hides. The
-// distances a radius off the axis, against the way in which the distance rises and along it, say how far from there those edges are. Nothing
-// where it is not wanted, without the work.
+// distances a radius off the axis, against the way in which the distance rises and along it, say how far from there those edges are.
 float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float sine, bool isWanted)
 {
+    if (!isWanted)
+        return 0.0;
     vec3 aside = rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
-    vec2 there = vec2(0.0);
-    int looks = isWanted ? 2 : 0;
-    for (int i = 0; i < looks; ++i)
-        there += fieldDistance(fields, where.point + (i == 0 ? -aside : aside)) / where.radius * vec2(i == 0, i == 1);
-    return isWanted ? flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine) : 0.0;
+    float most = where.distance + where.radius;
+    vec2 there = vec2(fieldDistance(fields, where.point - aside, most), fieldDistance(fields, where.point + aside, most)) / where.radius;
+    return flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine);
 }
 
 // How far a solid that blocks the k-th cone reaches at most into it, as a share of its radius: the nearest cone that is clear says so.
@@ -171,8 +174,7 @@ float subConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
     float least = subConeLeast[k];
     bool isClear = least >= 0.0, isCut = least <= kNearlyAll && least > kNearlyNone;
     Narrowest where = narrowest(cones, k);
-    FieldSlope slope =
-        slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, !isCut ? 0 : isClear ? 2 : 4);
+    FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, isClear, isCut);
     float beyond = seenPastNextEdges(fields, where, slope.across, sine, isCut), seen = flatCapCoverage(least, sine);
     if (isClear || !isCut)
         return isClear ? clamp(seen + beyond, 0.0, 1.0) : 0.0;
@@ -201,7 +203,7 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
     mat3 frame = tangentFrame(at.axis);
     FieldCone wide = coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere);
-    FieldMarch whole = marchCone(fields, wide, vec2(0.0, end), at.distance, kWideTolerance);
+    FieldMarch whole = marchCone(fields, wide, vec2(0.0, end), at.distance, farthestDistance(fields, p), kWideTolerance);
     if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
         return capCoverage(whole.least, sine);
     SubCones cones = SubCones(mat3(frame[0] * tangent, frame[1] * tangent, at.axis), wide, at.distanceLight, radius, count);

@@ -48,7 +48,7 @@ FieldCone coneToSphere(vec3 p, vec3 axis, float distanceLight, float radius, flo
 FieldsBlock fieldsInCone(FieldsBlock fields, FieldCone cone, float end)
 {
     float cosine = sqrt((1.0 - cone.slope) * (1.0 + cone.slope));
-    uint near = 0u;
+    uvec2 near = uvec2(0u);
     for (uint g = 0u; g < fields.groupCount; ++g) {
         FieldGroupBlock group = fieldGroup(fields, g);
         vec3 to = group.centre - cone.apex;
@@ -56,7 +56,7 @@ FieldsBlock fieldsInCone(FieldsBlock fields, FieldCone cone, float end)
         // The ball in the cone whose surface is nearest: where the way there is at right angles to the cone's side.
         float t = clamp(along + aside * cone.slope / cosine, 0.0, end);
         float apart = length(vec2(aside, along - t)) - cone.radius - cone.slope * t;
-        near |= apart < groupRadius(group) ? 1u << (g & 31u) : 0u;
+        near |= apart < groupRadius(group) ? setOfGroup(g) : uvec2(0u);
     }
     fields.skipped |= ~near;
     return fields;
@@ -89,13 +89,13 @@ void addLook(inout FieldMarch march, float at, float found, float ratio)
 }
 
 // The least share of the cone's radius that is clear on the way: to `tolerance` where the axis is blocked, to twice that where it is not. The
-// distance at its start is `distanceFrom` or more. Steps go past what is certain and are taken back where two balls do not meet: the farther,
+// distance at its start is `distanceFrom` or more, and no more than `most` of the groups that are looked at. Steps go past what is certain and are taken back where two balls do not meet: the farther,
 // the more the distance rose on the last (Balint, Valasek 2018).
-FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float tolerance)
+FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float most, float tolerance)
 {
     const float kRelaxed = 1.8, kMostRelaxed = 4.0;
     float t = way.x, f = distanceFrom, leastInGap = 1.0, level = levelOf(1.0, tolerance), relaxation = kRelaxed;
-    float last = kFieldFar; // `distanceFrom` may be of other groups
+    float last = most;
     FieldMarch march = FieldMarch(1.0, t, f, way, FieldGap(vec2(t), vec2(f)), FieldGap(vec2(t, kFieldFar), vec2(f)));
     bool isMet = false, isInside = false;
     for (uint i = 0u; i < kFieldMarchSteps && march.least > -1.0; ++i) {
@@ -139,7 +139,7 @@ void refineLeast(FieldsBlock fields, FieldCone cone, inout FieldMarch march)
         if (min(gapLeast(cone, before), gapLeast(cone, behind)) > march.least - kEnough || !(curvature > 0.0))
             break;
         float t = march.at + 0.5 * (rise.x * apart.y * apart.y - rise.y * apart.x * apart.x) / curvature;
-        float f = fieldDistance(fields, cone.apex + cone.axis * t);
+        float f = fieldDistance(fields, cone.apex + cone.axis * t, march.distance + abs(t - march.at));
         addLook(march, t, f, f / radiusAt(cone, t));
     }
 }
@@ -148,7 +148,8 @@ void refineLeast(FieldsBlock fields, FieldCone cone, inout FieldMarch march)
 void searchGap(FieldsBlock fields, FieldCone cone, inout FieldMarch march)
 {
     for (int i = 0; i < 2 && march.least > -1.0 && gapLeast(cone, march.gap) < min(march.least, 0.0); ++i) {
-        float t = gapLowestAt(march.gap), f = fieldDistance(fields, cone.apex + cone.axis * t), ratio = f / radiusAt(cone, t);
+        float t = gapLowestAt(march.gap), most = march.gap.distance.x + t - march.gap.at.x;
+        float f = fieldDistance(fields, cone.apex + cone.axis * t, most), ratio = f / radiusAt(cone, t);
         if (ratio < march.least) {
             march.least = ratio;
             march.at = t;
@@ -165,7 +166,8 @@ FieldMarch marchPart(FieldsBlock fields, FieldCone part, FieldCone wide, FieldMa
 {
     float start = found.span.x, apart = start * distance(wide.axis, part.axis);
     float atLeast = start > 0.0 ? radiusAt(wide, start) - apart : distanceHere;
-    FieldMarch march = marchCone(fields, part, vec2(start, min(found.span.y, end)), atLeast, kPartTolerance);
+    float most = found.distance + distance(part.axis * start, wide.axis * found.at);
+    FieldMarch march = marchCone(fields, part, vec2(start, min(found.span.y, end)), atLeast, most, kPartTolerance);
     refineLeast(fields, part, march);
     searchGap(fields, part, march);
     return march;

@@ -29,11 +29,11 @@ float edgeSampleVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, u
     if (cornerCounts[kCellLight] < 3 || !(distanceHere > 0.0))
         return distanceHere > 0.0 ? 1.0 : 0.0;
     FieldCone cone = coneOfPolygon(CellLight(p, distanceHere, frame, plane), kCellLight, end);
-    FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, 0.1);
+    FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, farthestDistance(fields, p), 0.1);
     if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? 1.0 : 0.0;
     FieldSlope slope =
-        slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance, 0.02 * radiusAt(cone, march.at), 4);
+        slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance, 0.02 * radiusAt(cone, march.at), false, true);
     return sampledShareInFront(edgePlane(cone, march, slope) * frame, samples);
 }
 

@@ -23,12 +23,12 @@ vec2 spanInGroup(FieldGroupBlock group, vec3 origin, vec3 direction)
 FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, inout vec2 way)
 {
     vec2 narrowed = vec2(way.y, way.x);
-    uint near = 0u;
+    uvec2 near = uvec2(0u);
     for (uint g = 0u; g < fields.groupCount; ++g) {
         vec2 span = spanInGroup(fieldGroup(fields, g), origin, direction);
         span = vec2(max(span.x, way.x), min(span.y, way.y));
         bool isMet = span.x < span.y;
-        near |= isMet ? 1u << (g & 31u) : 0u;
+        near |= isMet ? setOfGroup(g) : uvec2(0u);
         narrowed = isMet ? vec2(min(narrowed.x, span.x), max(narrowed.y, span.y)) : narrowed;
     }
     way = narrowed;
@@ -59,15 +59,15 @@ FieldHit traceField(FieldsBlock fields, vec3 origin, vec3 direction, float from,
     return hit;
 }
 
-// Along the gradient, by differences over `width` metres at a tetrahedron's corners: four of them see no side before another. Anything where
-// it is not wanted, without the work.
+// Along the gradient, by differences over `width` metres at a tetrahedron's corners: four of them see no side before another. The point is
+// no farther than twice that from the surface. Anything where it is not wanted, without the work.
 vec3 fieldNormal(FieldsBlock fields, vec3 p, float width, bool isWanted)
 {
     vec3 sum = vec3(0.0);
     int corners = isWanted ? 4 : 0;
     for (int i = 0; i < corners; ++i) {
         vec3 corner = vec3(((i + 3) >> 1) & 1, (i >> 1) & 1, i & 1) * 2.0 - 1.0;
-        sum += corner * fieldDistance(fields, p + corner * width);
+        sum += corner * fieldDistance(fields, p + corner * width, 4.0 * width);
     }
     return dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0, 1.0, 0.0);
 }
@@ -97,8 +97,8 @@ float ownShare(FieldStepBlock s, float before, float own)
     }
 }
 
-// At a point on the surface. Anything where it is not wanted, without the work.
-FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
+// At a point no farther from the surface than `width`, metres. Anything where it is not wanted, without the work.
+FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, float width, bool isWanted)
 {
     FieldSurfaceBlock none = FieldSurfaceBlock(vec3(0.0), 1.0, 0.0, 0.0), shown = none, made = none;
     float whole = kFieldFar, so = kFieldFar, own;
@@ -112,17 +112,21 @@ FieldSurfaceBlock fieldSurface(FieldsBlock fields, vec3 p, bool isWanted)
 #undef FIELD_BEGINS
 #undef FIELD_STEP
 #else
-    uint groupCount = isWanted ? fields.groupCount : 0u;
-    for (uint g = 0u; g < groupCount; ++g) {
-        FieldGroupBlock group = fieldGroup(fields, g);
-        uint first = group.firstStep, end = group.endStep;
-        if ((group.flags & kFieldBegins) != 0u) {
-            shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0);
-            whole = min(whole, so);
-            so = kFieldFar;
-        }
-        end = isLookedAt(fields, g) && mattersAt(group, p, so, kFieldFar) ? end : first;
-        for (uint i = first; i < end; ++i) {
+    uint groupCount = isWanted ? fields.groupCount : 0u, field = 0u;
+    for (uint first = 0u; first < groupCount; first += kGroupsInSet) {
+        uvec2 set = groupsThatMatter(fields, first, p, width);
+        for (uint i = 0u, end = 0u; i < end || set != uvec2(0u); ++i) {
+            if (i == end) {
+                FieldGroupBlock group = takeGroup(fields, first, set);
+                if (group.field != field) {
+                    shown = mixedSurface(shown, made, so < whole ? 1.0 : 0.0);
+                    whole = min(whole, so);
+                    so = kFieldFar;
+                }
+                field = group.field;
+                i = group.firstStep;
+                end = group.endStep;
+            }
             FieldStepBlock s = fieldStep(fields, i);
             own = fieldShape(s, p);
             made = mixedSurface(made, FieldSurfaces(fields.surfaces).surface[i], ownShare(s, so, own));

@@ -16,8 +16,6 @@ const uint kFieldSmoothUnion = 3u;
 
 // The first step of a field: what the steps before it made stands beside it.
 const uint kFieldBegins = 1u;
-// Of a group: steps that take away, and so change distances inside solids.
-const uint kFieldTakesAway = 2u;
 
 // A step: a shape, and what becomes of the distance so far.
 struct FieldStepBlock
@@ -44,7 +42,8 @@ struct FieldGroupBlock
     float slope;
     uint firstStep;
     uint endStep;
-    uint flags; // of its first step, and kFieldTakesAway
+    uint field; // that they are of, counted from 0
+    uint takesAway; // 1 where one of them does, and so changes distances inside solids
 };
 
 // Fields that are met together: groups in a row, and their steps.
@@ -53,8 +52,9 @@ struct FieldsBlock
     uint64_t steps; // FieldStepBlock[]
     uint64_t groups; // FieldGroupBlock[groupCount]
     uint64_t surfaces; // FieldSurfaceBlock[], one a step
+    uvec2 skipped; // groups that are not looked at: of 64 bits the (g % 64)th for the g-th of them
     uint groupCount;
-    uint skipped; // groups that are not looked at: bit g % 32 for the g-th of them
+    uint takesAway; // 1 where one of the groups does
 };
 
 // What light does on a step's surface.

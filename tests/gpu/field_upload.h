@@ -16,7 +16,9 @@ public:
         std::vector<shader::FieldGroupBlock> groups, own;
         for (const FieldSteps& field : fields) {
             render::writeGroups(field, own);
-            blocks_.push_back({.groups = groups.size() * sizeof(shader::FieldGroupBlock), .groupCount = static_cast<uint32_t>(own.size())});
+            blocks_.push_back({.groups = groups.size() * sizeof(shader::FieldGroupBlock),
+                               .groupCount = static_cast<uint32_t>(own.size()),
+                               .takesAway = render::takesAway(own)});
             for (shader::FieldGroupBlock group : own) {
                 group.firstStep += static_cast<uint32_t>(steps.size());
                 group.endStep += static_cast<uint32_t>(steps.size());

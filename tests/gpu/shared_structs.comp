@@ -319,7 +319,8 @@ void echo(FieldGroupBlock b)
     put(b.slope);
     put(b.firstStep);
     put(b.endStep);
-    put(b.flags);
+    put(b.field);
+    put(b.takesAway);
 }
 
 #elif defined(FIELDS_BLOCK)
@@ -327,11 +328,7 @@ void echo(FieldGroupBlock b)
 #define Block FieldsBlock
 void echo(FieldsBlock b)
 {
-    put(b.steps);
-    put(b.groups);
-    put(b.surfaces);
-    put(b.groupCount);
-    put(b.skipped);
+    put(b);
 }
 
 #elif defined(FIELD_SURFACE_BLOCK)

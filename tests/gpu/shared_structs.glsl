@@ -63,8 +63,9 @@ void put(FieldsBlock value)
     put(value.steps);
     put(value.groups);
     put(value.surfaces);
-    put(value.groupCount);
     put(value.skipped);
+    put(value.groupCount);
+    put(value.takesAway);
 }
 
 void put(MaterialBlock value)

@@ -14,14 +14,14 @@ TEST_F(SharedStructs, FieldStepBlock)
 TEST_F(SharedStructs, FieldGroupBlock)
 {
     expectSameLayout<shader::FieldGroupBlock>("FIELD_GROUP_BLOCK", [](const auto& b) {
-        return wordsOf(b.centre, b.reach, b.halfEdges, b.melt, b.slope, b.firstStep, b.endStep, b.flags);
+        return wordsOf(b.centre, b.reach, b.halfEdges, b.melt, b.slope, b.firstStep, b.endStep, b.field, b.takesAway);
     });
 }
 
 TEST_F(SharedStructs, FieldsBlock)
 {
     expectSameLayout<shader::FieldsBlock>("FIELDS_BLOCK",
-                                          [](const auto& b) { return wordsOf(b.steps, b.groups, b.surfaces, b.groupCount, b.skipped); });
+                                          [](const auto& b) { return wordsOf(b.steps, b.groups, b.surfaces, b.skipped, b.groupCount, b.takesAway); });
 }
 
 TEST_F(SharedStructs, FieldSurfaceBlock)
