@@ -51,6 +51,38 @@ TEST_F(FieldCells, WhatIsBehindTheLightHidesNothing)
             EXPECT_NEAR(each.value, 1, 0.001) << cells;
 }
 
+// Balls that share a group are looked at together, each of a field of its own only where a cone meets it.
+TEST_F(FieldCells, WhatNoConeMeetsMakesNoDifference)
+{
+    constexpr int kFields = 300;
+    RandomInputs random(31);
+    std::vector<FieldSteps> fields;
+    for (int i = 0; i < kFields; ++i) {
+        std::vector<SDFPrimitive> balls{kFloor};
+        for (int ball = 0; ball < 4; ++ball)
+            balls.push_back({.shape = SDFShape::Sphere,
+                             .centre = vec3(random.uniform(-1.5, 1.5), random.uniform(0.5, 4.5), random.uniform(-1, 1)),
+                             .radius = static_cast<float>(random.logUniform(0.02, 0.5))});
+        fields.push_back(fieldOf(balls));
+        fields.push_back(fields.back());
+        for (shader::FieldStepBlock& step : fields.back())
+            step.flags |= shader::kFieldBegins;
+    }
+    const FieldUpload uploaded(device(), fields);
+    std::vector<CellsAsk> asks;
+    for (int i = 0; i < 2 * kFields; ++i)
+        asks.push_back(askBelow({0.3f, 0.001f, -0.2f}, 8, uploaded[i]));
+    const std::vector<FieldSaid> said = run(asks);
+    int cut = 0;
+    double squares = 0; // cones go other steps where there is less about them
+    for (int i = 0; i < kFields; ++i) {
+        squares += std::pow(said[2 * i].value - said[2 * i + 1].value, 2);
+        cut += said[2 * i].value > 0 && said[2 * i].value < 1 ? 1 : 0;
+    }
+    EXPECT_LT(std::sqrt(squares / kFields), 0.005);
+    EXPECT_GT(cut, kFields / 4);
+}
+
 TEST_F(FieldCells, PenumbrasHaveNoBands)
 {
     constexpr int kSteps = 400;
