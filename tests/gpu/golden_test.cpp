@@ -2,6 +2,7 @@
 #include "app/eval.h"
 #include "base/error.h"
 #include "gpu/device_fixture.h"
+#include "unit/test_folder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
-#include <unistd.h>
 
 namespace antumbra::app {
 namespace {
@@ -20,7 +20,8 @@ protected:
     /// A file of these cases; it stays until the next test.
     static Path written(const std::string& text)
     {
-        Path file = Path(testing::TempDir()) / ("antumbra_cases_" + std::to_string(getpid()) + ".json");
+        static const TestFolder folder;
+        Path file = folder / "cases.json";
         writeText(file, text);
         return file;
     }

@@ -2,13 +2,13 @@
 #include "base/error.h"
 #include "scene/images.h"
 #include "scene/process.h"
+#include "unit/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <unistd.h>
 
 namespace antumbra::test {
 namespace {
@@ -20,13 +20,6 @@ using testing::Not;
 class ProgramTest : public testing::Test
 {
 protected:
-    void SetUp() override
-    {
-        folder_ = Path(testing::TempDir()) / ("antumbra_program_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     struct Result
     {
         int code;
@@ -55,7 +48,7 @@ protected:
         return {state != std::string::npos ? result.output.substr(state) : "", readFile(picture)};
     }
 
-    Path folder_;
+    TestFolder folder_;
 };
 
 TEST_F(ProgramTest, ReplaysToTheSameBytesTwiceAndWithAnyNumberOfThreads)

@@ -2,6 +2,7 @@
 #include "app/script.h"
 #include "scene/images.h"
 #include "scene/process.h"
+#include "unit/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,10 +91,7 @@ protected:
         for (const char* program : {"Xvfb", "xdotool"})
             if (!isInstalled(program))
                 GTEST_SKIP() << program << " is not installed";
-        folder_ = Path(testing::TempDir()) / ("antumbra_window_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
 
     void hands(const Screen& screen, std::vector<std::string> command) const
     {
@@ -103,12 +101,12 @@ protected:
     }
     [[nodiscard]] Path file(const char* name) const { return folder_ / name; }
 
-    Path folder_;
+    TestFolder folder_;
 };
 
 TEST_F(WindowTest, PlaysByRealKeysAndIsResized)
 {
-    const Screen screen(folder_);
+    const Screen screen(folder_.path());
     Process game(
         {ANTUMBRA_PROGRAM, "play", "plaza", "--size", "320x180", "--record", file("record.jsonl"), "--screenshot", file("last.png")},
         {{"DISPLAY", screen.name()}, {"WAYLAND_DISPLAY", ""}, {"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"}}, file("game.log"));
@@ -147,7 +145,7 @@ TEST_F(WindowTest, PlaysByRealKeysAndIsResized)
 
 TEST_F(WindowTest, DrawsNothingWhileHiddenAndLivesThroughTheSmallestSize)
 {
-    const Screen screen(folder_);
+    const Screen screen(folder_.path());
     Process game({ANTUMBRA_PROGRAM, "play", "plaza", "--size", "160x90", "--frames", "150"},
                  {{"DISPLAY", screen.name()}, {"WAYLAND_DISPLAY", ""}, {"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"}},
                  file("game.log"));

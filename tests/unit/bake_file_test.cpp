@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "scene/images.h"
+#include "unit/test_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
@@ -10,7 +11,6 @@
 #include <cstring>
 #include <functional>
 #include <random>
-#include <unistd.h>
 
 namespace antumbra::bake {
 namespace {
@@ -62,14 +62,6 @@ void expectEqual(const Bake& a, const Bake& b)
 class BakeFileTest : public testing::Test
 {
 protected:
-    void SetUp() override
-    {
-        folder_ = Path(testing::TempDir()) / ("antumbra_bake_file_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-        file_ = folder_ / "room.exr";
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     /// What loading says is wrong; empty where nothing is.
     std::string complaint() const
     {
@@ -113,8 +105,8 @@ protected:
         }
     }
 
-    Path folder_;
-    Path file_;
+    TestFolder folder_;
+    Path file_ = folder_ / "room.exr";
 };
 
 TEST_F(BakeFileTest, ComesBackToTheByte)
@@ -129,7 +121,7 @@ TEST_F(BakeFileTest, EqualBakesGiveEqualFilesAndNothingElse)
     saveBake(file_, randomBake());
     saveBake(folder_ / "again.exr", randomBake());
     EXPECT_EQ(readFile(file_), readFile(folder_ / "again.exr"));
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2) << "what was written beside is gone";
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2) << "what was written beside is gone";
 }
 
 TEST_F(BakeFileTest, AnyToolReadsItsChannels)

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/fnv1a.h"
+#include "unit/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <numeric>
 #include <set>
 #include <thread>
-#include <unistd.h>
 
 namespace antumbra::bake {
 namespace {
@@ -64,9 +64,6 @@ uint64_t hashOf(const Bake& bake)
 class BakerTest : public testing::Test
 {
 protected:
-    void SetUp() override { partial_ = Path(testing::TempDir()) / ("antumbra_baker_" + std::to_string(getpid()) + ".partial"); }
-    void TearDown() override { std::filesystem::remove(partial_); }
-
     /// Interrupts after so many of the questions.
     static std::function<bool()> after(uint32_t questions)
     {
@@ -98,7 +95,8 @@ protected:
 
     std::optional<Bake> resumed() const { return bakeScene(openRoom(), kSettings, {.threads = 2, .partial = partial_, .isResumed = true}); }
 
-    Path partial_;
+    TestFolder folder_;
+    Path partial_ = folder_ / "room.partial";
 };
 
 TEST_F(BakerTest, TheNumberOfThreadsChangesNoByte)

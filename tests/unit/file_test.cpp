@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "unit/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <sys/stat.h>
-#include <unistd.h>
 
 namespace antumbra {
 namespace {
@@ -16,25 +16,18 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// A folder of its own for each test, gone with it.
 class FileTest : public testing::Test
 {
 protected:
-    void SetUp() override
-    {
-        folder_ = Path(testing::TempDir()) / ("antumbra_file_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     [[nodiscard]] Path at(std::string_view name) const { return folder_ / name; }
 
     [[nodiscard]] size_t entryCount() const
     {
-        return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator{}));
+        return static_cast<size_t>(
+            std::distance(std::filesystem::directory_iterator(folder_.path()), std::filesystem::directory_iterator{}));
     }
 
-    Path folder_;
+    TestFolder folder_;
 };
 
 std::string refusalOf(const Path& path, uint64_t greatestBytes = 1 << 20)
@@ -133,7 +126,7 @@ TEST_F(FileTest, ReadingRefusesWhatIsMissing)
     EXPECT_THAT(refusalOf(at("dangling")), HasSubstr("no such file"));
 }
 
-TEST_F(FileTest, ReadingRefusesAFolder) { EXPECT_THAT(refusalOf(folder_), HasSubstr("not a regular file")); }
+TEST_F(FileTest, ReadingRefusesAFolder) { EXPECT_THAT(refusalOf(folder_.path()), HasSubstr("not a regular file")); }
 
 TEST_F(FileTest, ReadingRefusesADevice)
 {

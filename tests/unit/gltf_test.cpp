@@ -3,12 +3,12 @@
 #include "base/error.h"
 #include "scene/animation.h"
 #include "scene/gltf_repairs.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <unistd.h>
 
 using namespace antumbra;
 using namespace antumbra::scene;
@@ -81,9 +81,15 @@ std::string triangleText(const std::string& more = "", const std::string& nodes 
            nodes + more + "}";
 }
 
+Path temporary(const std::string& name)
+{
+    static const TestFolder folder;
+    return folder / name;
+}
+
 Path temporary(const std::string& name, const std::string& text)
 {
-    Path path = Path(testing::TempDir()) / ("antumbra_gltf_" + std::to_string(getpid()) + "_" + name);
+    Path path = temporary(name);
     writeText(path, text);
     return path;
 }
@@ -302,7 +308,7 @@ TEST(Gltf, InspectTellsWhatIsThere)
     EXPECT_NE(text.find("triangles 1, vertices 3, morph targets 0"), std::string::npos) << text;
     EXPECT_NE(text.find("nodes 1, joints 1, materials 1, images 0"), std::string::npos) << text;
     EXPECT_THROW(inspect("/absent/file.glb"), Error);
-    const Path picture = Path(testing::TempDir()) / ("antumbra_inspect_" + std::to_string(getpid()) + ".exr");
+    const Path picture = temporary("picture.exr");
     saveExr(picture, {2, 1, 3, {1, 2, 3, 3, 2, 1}});
     EXPECT_NE(inspect(picture).find("2x1, 3 channels"), std::string::npos);
     EXPECT_NE(inspect(picture).find("channel 0: min 1, mean 2, max 3"), std::string::npos) << inspect(picture);

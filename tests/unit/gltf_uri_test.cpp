@@ -1,12 +1,12 @@
 #include "scene/gltf_uri.h"
 
 #include "base/error.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <sys/stat.h>
-#include <unistd.h>
 
 using namespace antumbra;
 using namespace antumbra::scene;
@@ -21,18 +21,15 @@ class GltfUri : public testing::Test
 protected:
     void SetUp() override
     {
-        root_ = Path(testing::TempDir()) / ("antumbra_uri_" + std::to_string(getpid()));
-        std::filesystem::remove_all(root_);
         std::filesystem::create_directories(root_ / "home/deep");
         writeText(root_ / "secret.bin", "secret");
         writeText(root_ / "home/a b#1.bin", "mine");
         writeText(root_ / "home/deep/c.bin", "deep");
         std::filesystem::create_symlink(root_ / "secret.bin", root_ / "home/link.bin");
-        std::filesystem::create_directory_symlink(root_, root_ / "home/up");
+        std::filesystem::create_directory_symlink(root_.path(), root_ / "home/up");
         std::filesystem::create_symlink(root_ / "home/deep/c.bin", root_ / "home/inside.bin");
         mkfifo((root_ / "home/pipe").c_str(), 0600);
     }
-    void TearDown() override { std::filesystem::remove_all(root_); }
 
     std::string read(const std::string& uri) const { return textOf(readRelativeUri(root_ / "home", uri, 100)); }
     std::string refusalOf(const std::string& uri) const
@@ -45,7 +42,7 @@ protected:
         return "";
     }
 
-    Path root_;
+    TestFolder root_;
 };
 
 } // namespace

@@ -1,20 +1,24 @@
 #include "scene/images.h"
 
 #include "base/error.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <limits>
 #include <random>
-#include <unistd.h>
 
 using namespace antumbra;
 using namespace antumbra::scene;
 
 namespace {
 
-Path temporary(const std::string& name) { return Path(testing::TempDir()) / ("antumbra_images_" + std::to_string(getpid()) + "_" + name); }
+Path temporary(const std::string& name)
+{
+    static const TestFolder folder;
+    return folder / name;
+}
 
 Image8 checkered(uint32_t width, uint32_t height)
 {

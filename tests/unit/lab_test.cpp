@@ -2,13 +2,13 @@
 #include "app/measure.h"
 #include "app/sweep.h"
 #include "base/error.h"
+#include "unit/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-#include <unistd.h>
 
 namespace antumbra::app {
 namespace {
@@ -19,7 +19,8 @@ using testing::HasSubstr;
 
 Sweep sweepOf(const std::string& text)
 {
-    const Path file = Path(testing::TempDir()) / ("antumbra_lab_" + std::to_string(getpid()) + ".json");
+    const TestFolder folder;
+    const Path file = folder / "sweep.json";
     writeText(file, text);
     return loadSweep(file);
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "scene/images.h"
 #include "tools/fit_ltc/errors.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <unistd.h>
 
 namespace antumbra::bake {
 namespace {
@@ -24,7 +24,11 @@ constexpr double kPiExact = std::numbers::pi;
 constexpr double kAlphas[] = {0.2, 0.5, 1};
 const Path kPublished = Path(ANTUMBRA_SHARED_DIR) / "assets/ltc";
 
-Path temporary(const std::string& name) { return Path(testing::TempDir()) / ("antumbra_ltc_" + std::to_string(getpid()) + "_" + name); }
+Path temporary(const std::string& name)
+{
+    static const TestFolder folder;
+    return folder / name;
+}
 
 dvec3 directionOf(double cosine, double azimuth)
 {

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "scene/animator.h"
+#include "unit/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace {
 
@@ -52,7 +52,7 @@ struct Populated
 
 SceneFile sceneOf(const std::string& text)
 {
-    const Path folder = Path(testing::TempDir()) / ("antumbra_populate_" + std::to_string(getpid()));
+    const TestFolder folder;
     writeText(folder / "scene.json", text);
     return loadScene(folder / "scene.json");
 }

@@ -1,20 +1,26 @@
 #include "scene/scene_file.h"
 
 #include "base/error.h"
+#include "unit/test_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
-#include <unistd.h>
 
 namespace {
 
 using namespace antumbra;
 using namespace antumbra::scene;
 
+const TestFolder& folder()
+{
+    static const TestFolder folder;
+    return folder;
+}
+
 Path fileWith(const std::string& text)
 {
-    const Path file = Path(testing::TempDir()) / ("antumbra_scene_" + std::to_string(getpid()) + ".json");
+    const Path file = folder() / "scene.json";
     writeText(file, text);
     return file;
 }
@@ -52,7 +58,7 @@ TEST(SceneFile, ReadsCameraEnvironmentAndSettings)
     EXPECT_EQ(scene.camera.position, vec3(1, 2, 3));
     EXPECT_NEAR(scene.camera.verticalFovRadians, kPi / 3, 1e-6f);
     ASSERT_TRUE(scene.environment);
-    EXPECT_EQ(scene.environment->file, Path(testing::TempDir()) / "../environments/hall.hdr");
+    EXPECT_EQ(scene.environment->file, folder() / "../environments/hall.hdr");
     EXPECT_NEAR(scene.environment->rotationRadians, kPi / 2, 1e-6f);
     EXPECT_EQ(scene.environment->intensity, 2);
     const Settings expected{{"occlusion.culling", "bones"}, {"occlusion.samples", "128"}, {"occlusion.scale", "0.5"}};
@@ -76,7 +82,7 @@ TEST(SceneFile, ReadsAnEntity)
         "animation": {"clip": "walk", "speed": 1.5, "offset": 0.25}})");
     EXPECT_EQ(entity.name, "walker");
     EXPECT_EQ(entity.mesh.kind, MeshKind::File);
-    EXPECT_EQ(entity.mesh.file, Path(testing::TempDir()) / "walker.glb");
+    EXPECT_EQ(entity.mesh.file, folder() / "walker.glb");
     EXPECT_TRUE(entity.isDynamicSkinned);
     EXPECT_FALSE(entity.isStaticPRT);
     EXPECT_EQ(entity.transform.scale, vec3(2));
@@ -236,7 +242,7 @@ TEST(SceneFile, ParentsAreFoundByNameInAnyOrder)
 
 TEST(SceneFile, UnknownKeysNameTheNearestKnownOne)
 {
-    expectFault(faultOf(R"({"entites": []})"), {("antumbra_scene_" + std::to_string(getpid()) + ".json"), "\"entites\"", "\"entities\""});
+    expectFault(faultOf(R"({"entites": []})"), {"scene.json", "\"entites\"", "\"entities\""});
     expectFault(faultOf(R"({"camera": {"vfov": 60}})"), {"camera", "\"vfov\"", "\"vfov_deg\""});
     expectFault(faultOfEntity(R"({"transform": {"postion": [0, 0, 0]}})"), {"entities[0].transform", "\"postion\"", "\"position\""});
     expectFault(faultOfEntity(R"({"Dynamicskinned": {}})"), {"\"DynamicSkinned\""});
@@ -290,13 +296,13 @@ TEST(SceneFile, ValuesHaveTypesAndRanges)
 
 TEST(SceneFile, TextThatIsNotJsonIsOneLineWithThePlace)
 {
-    expectFault(faultOf("{\n  \"camera\": {,}\n}"), {("antumbra_scene_" + std::to_string(getpid()) + ".json"), "line 2, column"});
+    expectFault(faultOf("{\n  \"camera\": {,}\n}"), {"scene.json", "line 2, column"});
     expectFault(faultOf(""), {"line 1"});
     expectFault(faultOf("{\"camera\": {\"vfov_deg\": 1e999}}"), {"1e999"});
     expectFault(faultOf("{\"a\": \"\xff\"}"), {"UTF-8"});
     expectFault(faultOf(std::string(200'000, '[')), {"line 1"});
     EXPECT_THROW(loadScene("/dev/zero"), Error);
-    EXPECT_THROW(loadScene(Path(testing::TempDir()) / "no_such_scene.json"), Error);
+    EXPECT_THROW(loadScene(folder() / "no_such_scene.json"), Error);
 }
 
 TEST(SceneFile, AModelByItselfStandsOnAPlane)
