@@ -89,6 +89,7 @@ FieldGroupBlock fieldGroup(FieldsBlock fields, uint g) { return FieldGroups(fiel
 
 FieldStepBlock fieldStep(FieldsBlock fields, uint i) { return FieldSteps(fields.steps).step[i]; }
 
+// holdSteps comes first of all: what a CPU device reads in a loop it gathers each time round.
 #ifdef HOLDS_STEPS
 #define FIELD_BEGINS
 #define FIELD_STEP(i, operation, share, distance) + 1
@@ -100,7 +101,7 @@ void holdSteps(FieldsBlock fields) { FIELD_STRUCTURE }
 #undef FIELD_BEGINS
 FieldStepBlock writtenStep(FieldsBlock fields, uint i) { return heldSteps[i]; }
 #else
-void holdSteps(FieldsBlock fields) {} // before any other function is called
+void holdSteps(FieldsBlock fields) {}
 FieldStepBlock writtenStep(FieldsBlock fields, uint i) { return fieldStep(fields, i); }
 #endif
 

@@ -18,11 +18,12 @@ float quilezVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius)
     if (at.settled >= 0.0)
         return at.settled;
     float tangent = radius * inversesqrt(max(at.distanceLight * at.distanceLight - radius * radius, 1.0e-9));
-    float least = 1.0, t = 1.0e-3, end = at.distanceLight - radius;
+    float least = 1.0, t = 1.0e-3, f = at.distance, step = t, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
-        float f = fieldDistance(fields, p + at.axis * t);
+        f = fieldDistance(fields, p + at.axis * t, f + step);
         least = min(least, f / max(tangent * t, 1.0e-7));
-        t += clamp(abs(f), 0.002 * at.distanceLight, 0.1 * at.distanceLight);
+        step = clamp(abs(f), 0.002 * at.distanceLight, 0.1 * at.distanceLight);
+        t += step;
     }
     return smoothShare(least);
 }
@@ -34,14 +35,15 @@ float aaltonenVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius)
     if (at.settled >= 0.0)
         return at.settled;
     float cotangent = sqrt(max(at.distanceLight * at.distanceLight - radius * radius, 1.0e-9)) / max(radius, 1.0e-7);
-    float least = 1.0, t = 1.0e-3, before = 1.0e20, end = at.distanceLight - radius;
+    float least = 1.0, t = 1.0e-3, before = 1.0e20, most = at.distance + t, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end; ++i) {
-        float f = fieldDistance(fields, p + at.axis * t);
+        float f = fieldDistance(fields, p + at.axis * t, most);
         if (f < 1.0e-4)
             return 0.0;
         float back = f * f / (2.0 * before), aside = sqrt(max(f * f - back * back, 0.0));
         least = min(least, cotangent * aside / max(t - back, 1.0e-6));
         before = f;
+        most = 2.0 * f;
         t += f;
     }
     return smoothShare(2.0 * clamp(least, 0.0, 1.0) - 1.0);
@@ -54,15 +56,16 @@ float coneVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, floa
     if (at.settled >= 0.0)
         return at.settled;
     FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, min(at.distance, 0.5 * radius));
-    float least = 1.0, share = 1.0, t = 0.0, f = at.distance, end = at.distanceLight - radius;
+    float least = 1.0, share = 1.0, t = 0.0, f = at.distance, step = 0.0, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
-        f = i > 0u ? fieldDistance(fields, p + at.axis * t) : f;
+        f = i > 0u ? fieldDistance(fields, p + at.axis * t, f + step) : f;
         float whole = radiusAt(cone, t);
         if (f - share * whole < tolerance * whole) {
             least = min(least, f / whole);
             share = min(share, f / whole - tolerance);
         }
-        t += max((f - share * whole) / (1.0 + share * cone.slope), 1.0e-5 + 1.0e-4 * t);
+        step = max((f - share * whole) / (1.0 + share * cone.slope), 1.0e-5 + 1.0e-4 * t);
+        t += step;
     }
     return smoothShare(least);
 }

@@ -89,8 +89,8 @@ void addLook(inout FieldMarch march, float at, float found, float ratio)
 }
 
 // The least share of the cone's radius that is clear on the way: to `tolerance` where the axis is blocked, to twice that where it is not. The
-// distance at its start is `distanceFrom` or more, and no more than `most` of the groups that are looked at. Steps go past what is certain and are taken back where two balls do not meet: the farther,
-// the more the distance rose on the last (Balint, Valasek 2018).
+// distance at its start is `distanceFrom` or more, and to the groups that are looked at no more than `most`. Steps go past what is certain and
+// are taken back where two balls do not meet: the farther, the more the distance rose on the last (Balint, Valasek 2018).
 FieldMarch marchCone(FieldsBlock fields, FieldCone cone, vec2 way, float distanceFrom, float most, float tolerance)
 {
     const float kRelaxed = 1.8, kMostRelaxed = 4.0;
