@@ -108,11 +108,10 @@ float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch f
     float end;
     FieldCone cone = coneOfPolygon(light, kCell, end);
     FieldMarch march = marchPart(fields, cone, wide, found, end, light.distanceHere);
-    bool isCut = abs(march.least) < 1.0;
-    FieldSlope slope = slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance,
-                                   kSlopeNudge * radiusAt(cone, march.at), false, isCut);
-    if (!isCut)
+    if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? whole : 0.0;
+    FieldSlope slope = slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance,
+                                   kSlopeNudge * radiusAt(cone, march.at), false);
     cut(kCell, crossingOf(kCell, edgePlane(cone, march, slope) * light.frame), kCellSeen, kCell, false, true);
     float seen = clamp(formFactor(kCellSeen, true), 0.0, whole);
     return mix(march.least > 0.0 ? whole : 0.0, seen, edgeCertainty(slope));
@@ -129,6 +128,7 @@ float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint co
     CellLight light = CellLight(p, distanceHere, frame, plane);
     float end;
     FieldCone cone = coneOfPolygon(light, kCellLight, end);
+    // Cones about cells may stand out of the one about the light.
     fields = fieldsInCone(fields, FieldCone(p, cone.axis, cone.radius, min(1.2 * cone.slope, 0.9999)), 1.2 * end);
     FieldMarch march = marchCone(fields, cone, vec2(0.0, end), distanceHere, farthestDistance(fields, p), kWideTolerance);
     if (march.least >= 1.0 || march.least <= -1.0)

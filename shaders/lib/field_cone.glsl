@@ -108,14 +108,11 @@ vec2 changeAside(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, flo
     return vec2(fieldDistance(fields, p + frame[0] * step, most), fieldDistance(fields, p + frame[1] * step, most)) - distanceHere;
 }
 
-// By steps to both sides; or to one side, which tells as much where there is no ridge, as out of solids; level where it is not wanted.
-// `frame` is across the axis and along.
-FieldSlope slopeAcross(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, float nudge, bool isOneSided, bool isWanted)
+// By steps to both sides; or to one side, which tells as much where there is no ridge, as out of solids. `frame` is across the axis and along.
+FieldSlope slopeAcross(FieldsBlock fields, vec3 p, mat3 frame, float distanceHere, float nudge, bool isOneSided)
 {
-    vec2 rise = vec2(0.0), fall = vec2(0.0);
-    if (isWanted)
-        rise = changeAside(fields, p, frame, distanceHere, nudge) / nudge;
-    if (isWanted && !isOneSided)
+    vec2 rise = changeAside(fields, p, frame, distanceHere, nudge) / nudge, fall = vec2(0.0);
+    if (!isOneSided)
         fall = changeAside(fields, p, frame, distanceHere, -nudge) / nudge;
     vec2 across = isOneSided ? rise : 0.5 * (rise - fall);
     return FieldSlope(frame[0] * across.x + frame[1] * across.y, clamp(length(max(abs(rise), abs(fall))), 0.05, 1.0));
@@ -142,10 +139,8 @@ Narrowest narrowest(SubCones cones, uint k)
 
 // What the edges beyond the nearest one add to what is seen: light past the other side of what is thin, less what the next solid hides. The
 // distances a radius off the axis, against the way in which the distance rises and along it, say how far from there those edges are.
-float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float sine, bool isWanted)
+float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float sine)
 {
-    if (!isWanted)
-        return 0.0;
     vec3 aside = rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
     float most = where.distance + where.radius;
     vec2 there = vec2(fieldDistance(fields, where.point - aside, most), fieldDistance(fields, where.point + aside, most)) / where.radius;
@@ -172,12 +167,15 @@ float subConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
     const float kNearlyAll = 0.7; // where an edge hides less, others are not looked for
     const float kNearlyNone = -0.95; // what is left of a cone that is blocked farther makes no difference
     float least = subConeLeast[k];
-    bool isClear = least >= 0.0, isCut = least <= kNearlyAll && least > kNearlyNone;
+    bool isClear = least >= 0.0;
+    float seen = least > kNearlyNone ? flatCapCoverage(least, sine) : 0.0;
+    if (least > kNearlyAll || least <= kNearlyNone)
+        return seen;
     Narrowest where = narrowest(cones, k);
-    FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, isClear, isCut);
-    float beyond = seenPastNextEdges(fields, where, slope.across, sine, isCut), seen = flatCapCoverage(least, sine);
-    if (isClear || !isCut)
-        return isClear ? clamp(seen + beyond, 0.0, 1.0) : 0.0;
+    FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, isClear);
+    float beyond = seenPastNextEdges(fields, where, slope.across, sine);
+    if (isClear)
+        return clamp(seen + beyond, 0.0, 1.0);
     float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
     float farthest = farthestEdge(cones, k);
     float pastEdge = flatCapCoverage(-mix(farthest, min(-least / slope.greatest, farthest), certainty), sine);

@@ -33,7 +33,7 @@ float edgeSampleVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, u
     if (march.least >= 1.0 || march.least <= -1.0)
         return march.least > 0.0 ? 1.0 : 0.0;
     FieldSlope slope = slopeAcross(fields, cone.apex + cone.axis * march.at, tangentFrame(cone.axis), march.distance,
-                                   0.02 * radiusAt(cone, march.at), false, true);
+                                   0.02 * radiusAt(cone, march.at), false);
     return sampledShareInFront(edgePlane(cone, march, slope) * frame, samples);
 }
 
