@@ -90,8 +90,7 @@ FieldCone coneOfPolygon(CellLight light, int place, out float end)
     vec3 axis = light.frame * middle;
     float facing = max(dot(light.plane.xyz, axis), 1.0e-4), distanceLight = light.plane.w / facing;
     end = light.plane.w / (facing + sine);
-    float radius = distanceLight * sine;
-    return coneToSphere(light.point, axis, max(distanceLight, 1.0e-6), radius, min(light.distanceHere, 0.5 * radius));
+    return coneToSphere(light.point, axis, max(distanceLight, 1.0e-6), distanceLight * sine, 0.0);
 }
 
 // Through the apex and the edge that the cone meets at its narrowest; unit, what is clear in front.

@@ -72,8 +72,7 @@ struct SubCones
 FieldCone subCone(SubCones cones, uint k)
 {
     vec3 place = subConePlace(k, cones.count), axis = normalize(cones.frame * vec3(place.xy, 1.0));
-    float radius = place.z * cones.radius;
-    return coneToSphere(cones.wide.apex, axis, cones.distanceLight, radius, min(cones.wide.radius, 0.5 * radius));
+    return coneToSphere(cones.wide.apex, axis, cones.distanceLight, place.z * cones.radius, 0.0);
 }
 
 // In the middle of 7 and of 16 is the wide cone's own axis, which is not gone along again.
@@ -195,12 +194,12 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
 {
     FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     fields = fieldsTowards(fields, p, centre, radius);
-    float radiusHere = min(at.distance, 0.5 * radius), end = at.distanceLight - radius;
+    float end = at.distanceLight - radius;
     if (at.settled >= 0.0 || end <= 0.0)
         return max(at.settled, at.settled < 0.0 ? 1.0 : 0.0);
     float sine = min(radius / at.distanceLight, 0.9999), tangent = sine * inversesqrt(1.0 - sine * sine);
     mat3 frame = tangentFrame(at.axis);
-    FieldCone wide = coneToSphere(p, at.axis, at.distanceLight, radius, radiusHere);
+    FieldCone wide = coneToSphere(p, at.axis, at.distanceLight, radius, 0.0);
     FieldMarch whole = marchCone(fields, wide, vec2(0.0, end), at.distance, farthestDistance(fields, p), kWideTolerance);
     if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
         return capCoverage(whole.least, sine);

@@ -39,6 +39,7 @@ struct FieldMarch
     FieldGap beside; // the looks before and behind the least; at kFieldFar while there is none behind
 };
 
+// `radiusHere` at its apex: a cone that is as wide as what is clear there takes what stands near by for narrow.
 FieldCone coneToSphere(vec3 p, vec3 axis, float distanceLight, float radius, float radiusHere)
 {
     return FieldCone(p, axis, radiusHere, min((radius - radiusHere) / distanceLight, 0.9999));

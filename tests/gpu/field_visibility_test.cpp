@@ -206,6 +206,21 @@ TEST_F(FieldVisibility, ThinRodsHideABand)
         }
 }
 
+// On floors that are no part of the field, far from all of it: right behind a post it is dark, beside it light.
+TEST_F(FieldVisibility, PostsHideTheLightFromFloorsOfOtherThings)
+{
+    const FieldUpload uploaded(device(),
+                               {fieldOf({{.shape = SDFShape::Capsule, .centre = {0, 0, 0}, .end = {0, 1, 0}, .radius = 0.055f}})});
+    for (const uint32_t cones : {1u, 4u, 7u, 16u}) {
+        std::vector<FieldAsk> asks;
+        for (const vec3 position : {vec3(0.1f, 0, 0), vec3(0.2f, 0, 0), vec3(0.3f, 0, 0), vec3(0.2f, 0, 0.12f), vec3(0, 0, 0.3f)})
+            asks.push_back({position, {-4, 4.5f, 0}, 0.55f, cones, uploaded[0]});
+        const std::vector<FieldSaid> said = runKernel<FieldSaid>(device(), kFieldKernel, "SUB_CONES", asks);
+        for (size_t i = 0; i < asks.size(); ++i)
+            EXPECT_NEAR(said[i].value, i < 3 ? 0 : 1, 0.01) << cones << " cones, point " << i;
+    }
+}
+
 TEST_F(FieldVisibility, ThinSheetsHideWhatIsBehindThem)
 {
     constexpr uint32_t kCount = 200;

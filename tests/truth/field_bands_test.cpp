@@ -123,7 +123,7 @@ TEST_F(FieldBands, PenumbrasBendAsTheTruthDoes)
         uint32_t cones;
         double rms, sharp;
     };
-    for (const Bar& bar : {Bar{4, 0.0115, 0.046}, Bar{7, 0.0105, 0.032}, Bar{16, 0.009, 0.019}}) {
+    for (const Bar& bar : {Bar{4, 0.011, 0.046}, Bar{7, 0.0095, 0.028}, Bar{16, 0.008, 0.017}}) {
         const Bends bends = bendsOf(lines, bar.cones);
         EXPECT_LT(bends.rms, bar.rms) << bar.cones;
         EXPECT_LT(bends.sharp, bar.sharp * kLines * (kPoints - 2)) << bar.cones;
