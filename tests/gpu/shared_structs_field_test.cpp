@@ -20,8 +20,8 @@ TEST_F(SharedStructs, FieldGroupBlock)
 
 TEST_F(SharedStructs, FieldsBlock)
 {
-    expectSameLayout<shader::FieldsBlock>("FIELDS_BLOCK",
-                                          [](const auto& b) { return wordsOf(b.steps, b.groups, b.surfaces, b.skipped, b.groupCount, b.takesAway); });
+    expectSameLayout<shader::FieldsBlock>(
+        "FIELDS_BLOCK", [](const auto& b) { return wordsOf(b.steps, b.groups, b.surfaces, b.skipped, b.groupCount, b.takesAway); });
 }
 
 TEST_F(SharedStructs, FieldSurfaceBlock)

@@ -117,7 +117,7 @@ TEST_F(FieldBands, PenumbrasBendAsTheTruthDoes)
             dark += seen == 0 ? 1 : 0;
         }
     EXPECT_LT(lit + dark, static_cast<int>(kLines * kPoints * 2 / 3)) << "a third of the points are in penumbras";
-    // Steps that go as far as twice the tolerances make it 0.022, 0.016, 0.013, and twice as many sharp ones.
+    // Twice the tolerances without second looks at the narrowest place make it 0.022, 0.016, 0.013, and twice as many sharp ones.
     struct Bar
     {
         uint32_t cones;
