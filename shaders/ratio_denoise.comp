@@ -35,7 +35,7 @@ Neighbour neighbour(ivec2 here, ivec2 pixel, PixelPlane plane, vec3 position, iv
     float depth = texelFetch(sampledImages[pc.depth], there, 0).x;
     float depthView = frameBlock.near / max(depth, 1.0e-30);
     vec3 normal = unitFromOctahedral(texelFetch(sampledImages[pc.normals], there, 0).zw);
-    float like = samePlane(plane, vec2(there - pixel), depthView) * sameFacing(plane, normal);
+    float like = likeness(plane, vec2(there - pixel), depthView, normal);
     vec2 spline = mix(vec2(0.375), mix(vec2(0.25), vec2(0.0625), equal(abs(step), ivec2(2))), notEqual(step, ivec2(0)));
     return Neighbour(uint(place.y * lit.x + place.x), isInside && depth > 0.0 ? like * spline.x * spline.y : 0.0,
                      distance(frameBlock.eye + fromEye(frameBlock, vec2(there) + 0.5, depthView), position));

@@ -20,7 +20,7 @@ void main()
 {
     vec3 d = normalize(frameBlock.cornerRay + gl_FragCoord.x * frameBlock.rayX + gl_FragCoord.y * frameBlock.rayY);
     // The light turned by +angle about +Y is looked up at -angle.
-    float c = cos(frameBlock.environmentRotation), s = sin(frameBlock.environmentRotation);
+    float c = frameBlock.environmentTurn.x, s = frameBlock.environmentTurn.y;
     d = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
     vec2 uv = vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInversePi), acos(clamp(d.y, -1.0, 1.0)) * kInversePi);
     vec3 radiance = textureLod(sampler2D(sampledImages[frameBlock.environment], samplers[kLinearWrapU]), uv, 0.0).rgb;

@@ -13,6 +13,11 @@ using graph::Use;
 constexpr gpu::Format kPictureFormat = gpu::Format::Rgba8Unorm;
 constexpr gpu::Format kKeptFormat = gpu::Format::Rgba16Float;
 
+constexpr uvec2 kGroup{shader::kComposeGroupWidth, 1};
+
+/// Of pixels between the same four squares (shaders/lib/upsample.glsl), of which those at the picture's edges are cut.
+uvec2 blocksOf(uvec2 extent, uint32_t pixelScale) { return extent / pixelScale + 2u; }
+
 uint32_t viewOf(ViewMode mode) { return static_cast<uint32_t>(mode); }
 static_assert(static_cast<uint32_t>(ViewMode::Final) == shader::kViewFinal &&
               static_cast<uint32_t>(ViewMode::Reference) == shader::kViewReference);
@@ -38,11 +43,9 @@ const gpu::Pipeline& CompositeSystem::composition(Variant variant)
 {
     gpu::Pipeline& pipeline = compositions_[variant.index()];
     if (!pipeline) {
-        const std::pair<bool, std::string_view> parts[] = {{variant.isOccluded, "OCCLUDED"},
-                                                           {variant.explains, "EXPLAINS"},
-                                                           {variant.isLit, "AREA_LIT"},
-                                                           {variant.isGlossy, "AREA_GLOSSY"},
-                                                           {variant.isDark, "DARK"}};
+        const std::pair<bool, std::string_view> parts[] = {
+            {variant.isOccluded, "OCCLUDED"},  {variant.explains, "EXPLAINS"},          {variant.isLit, "AREA_LIT"},
+            {variant.isGlossy, "AREA_GLOSSY"}, {variant.isUpsampled, "AREA_UPSAMPLED"}, {variant.isDark, "DARK"}};
         std::vector<gpu::ShaderDefine> defines;
         for (const auto& [isPart, define] : parts)
             if (isPart)
@@ -68,10 +71,48 @@ const gpu::Pipeline& CompositeSystem::lightBody(bool keepsColor)
     return pipeline;
 }
 
+AreaLit CompositeSystem::litWhereTraced(graph::FrameGraph& graph, uint32_t frame, const GBuffer& g, const Traced& traced,
+                                        const AreaLit& found)
+{
+    if (!found.diffuse || found.pixelScale == 1 || !traced.pixels || traced.pixelScale == found.pixelScale) {
+        graph.skip("area upsample", !found.diffuse          ? "no AreaLight in the scene"
+                                    : found.pixelScale == 1 ? "area light is found for every pixel"
+                                                            : "composition does it");
+        return found;
+    }
+    const bool isGlossy = static_cast<bool>(found.specular);
+    gpu::Pipeline& pipeline = upsamples_[isGlossy ? 1 : 0];
+    constexpr gpu::ShaderDefine glossy{"GLOSSY"};
+    if (!pipeline)
+        pipeline = computePipeline(*device_, "area_upsample.comp", std::span(&glossy, isGlossy ? 1 : 0));
+    graph::Pass pass = graph.add("area upsample");
+    for (const graph::ImageRef image : {g.depth, g.normals, found.diffuse, found.specular})
+        if (image)
+            pass.read(image, Use::Sampled);
+    const graph::ImageDesc desc{.format = AreaLit::kFormat, .like = g.depth};
+    const AreaLit made{pass.create("area diffuse, upsampled", desc, Use::StorageWrite),
+                       isGlossy ? pass.create("area specular, upsampled", desc, Use::StorageWrite) : graph::ImageRef{}};
+    pass.record([&pipeline, frame, g, found, made](graph::Recorder& recorder) {
+        recorder.dispatch(pipeline,
+                          shader::AreaUpsample{.frame = frame,
+                                               .depth = recorder.sampled(g.depth),
+                                               .normals = recorder.sampled(g.normals),
+                                               .diffuseLit = recorder.sampled(found.diffuse),
+                                               .specularLit = found.specular ? recorder.sampled(found.specular) : 0,
+                                               .diffuse = recorder.storage(made.diffuse),
+                                               .specular = made.specular ? recorder.storage(made.specular) : 0,
+                                               .pixelScale = static_cast<int>(found.pixelScale)},
+                          blocksOf(recorder.extent(g.depth), found.pixelScale), kGroup);
+    });
+    return made;
+}
+
 Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const GBuffer& g,
-                                  const Traced& traced, ImageRef reference, const AreaLit& lit, ImageRef picture, Kept kept,
+                                  const Traced& traced, ImageRef reference, const AreaLit& found, ImageRef picture, Kept kept,
                                   graph::BufferRef& counters)
 {
+    const AreaLit lit = litWhereTraced(graph, frame, g, traced, found);
+    const uint32_t scale = traced.pixels ? traced.pixelScale : lit.pixelScale;
     const bool explains = view.knobs.view != ViewMode::Final || kept.any() || reference;
     graph::Pass pass = graph.add("composite");
     for (const ImageRef image : {g.depth, g.normals, g.albedo, g.unshadowed, traced.pixels, reference, lit.diffuse, lit.specular})
@@ -90,11 +131,11 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                                  .explains = explains,
                                                  .isLit = static_cast<bool>(lit.diffuse),
                                                  .isGlossy = static_cast<bool>(lit.specular),
+                                                 .isUpsampled = lit.pixelScale > 1,
                                                  .isDark = !view.hasEnvironment()});
-    pass.record([&pipeline, &view, frame, g, traced, reference, lit, composed, counted = counters](graph::Recorder& recorder) {
+    pass.record([&pipeline, &view, frame, g, traced, reference, lit, composed, scale, counted = counters](graph::Recorder& recorder) {
         const auto sampled = [&](ImageRef image) { return image ? recorder.sampled(image) : shader::kAbsent; };
         const auto storage = [&](ImageRef image) { return image ? recorder.storage(image) : shader::kAbsent; };
-        const uint32_t scale = traced.pixelScale;
         recorder.dispatch(pipeline,
                           shader::Composite{.counters = recorder.address(counted),
                                             .frame = frame,
@@ -106,7 +147,6 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .areaDiffuse = sampled(lit.diffuse),
                                             .areaSpecular = sampled(lit.specular),
                                             .pixelScale = static_cast<int>(scale),
-                                            .lastTraced = traced.pixels ? ivec2(recorder.extent(traced.pixels)) - 1 : ivec2(0),
                                             .reference = sampled(reference),
                                             .isReferenceShown = view.knobs.reference.samples > 0 && view.knobs.view == ViewMode::Final,
                                             .picture = recorder.storage(composed.picture),
@@ -116,7 +156,7 @@ Composed CompositeSystem::declare(graph::FrameGraph& graph, const FrameView& vie
                                             .occluded = storage(composed.occluded),
                                             .view = viewOf(view.knobs.view),
                                             .splitX = view.splitColumn},
-                          recorder.extent(composed.picture) / scale + 2u);
+                          blocksOf(recorder.extent(composed.picture), scale), kGroup);
     });
     declareSky(graph, view, frame, g.depth, composed);
     declareLightBodies(graph, view, frame, scene, g.depth, composed);

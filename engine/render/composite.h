@@ -39,11 +39,16 @@ private:
     /// What a composition is made for.
     struct Variant
     {
-        bool isOccluded, explains, isLit, isGlossy, isDark;
-        [[nodiscard]] size_t index() const { return isOccluded + 2u * explains + 4u * isLit + 8u * isGlossy + 16u * isDark; }
+        bool isOccluded, explains, isLit, isGlossy, isUpsampled, isDark;
+        [[nodiscard]] size_t index() const
+        {
+            return isOccluded + 2u * explains + 4u * isLit + 8u * isGlossy + 16u * isUpsampled + 32u * isDark;
+        }
     };
 
     const gpu::Pipeline& composition(Variant variant);
+    /// Area light for the pixels that are traced, or for all.
+    AreaLit litWhereTraced(graph::FrameGraph& graph, uint32_t frame, const GBuffer& g, const Traced& traced, const AreaLit& found);
     const gpu::Pipeline& sky(bool keepsColor);
     const gpu::Pipeline& lightBody(bool keepsColor);
     void declareSky(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, graph::ImageRef depth, Composed& composed);
@@ -58,7 +63,8 @@ private:
     };
 
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 32> compositions_; // each made when first asked for
+    std::array<gpu::Pipeline, 64> compositions_; // each made when first asked for
+    std::array<gpu::Pipeline, 2> upsamples_;     // by whether glossy
     std::array<gpu::Pipeline, 2> skies_, lightBodies_;
     std::vector<LightBody> farthestFirst_; // of the frame that is declared
 };

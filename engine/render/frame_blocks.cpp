@@ -95,7 +95,7 @@ void FrameBlocks::writeEnvironment(const FrameView& view, const GpuScene& scene)
         block.irradianceSh[i] = vec3(irradiance.coefficients[i]) * environment.intensity;
     }
     block.environment = scene.environment(environment.image).sampledSlot();
-    block.environmentRotation = environment.rotationRadians;
+    block.environmentTurn = {std::cos(environment.rotationRadians), std::sin(environment.rotationRadians)};
     block.environmentIntensity = environment.intensity;
 }
 

@@ -4,8 +4,12 @@
 #define LIB_ATLAS_GLSL
 
 #include "lib/float21.glsl"
+#include "lib/whole.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Texels { uvec2 texel[]; };
+// Both words at once: CPU devices gather as fast as one.
+layout(buffer_reference, scalar) readonly buffer Texels { uint64_t texel[]; };
+
+vec3 texelAt(Texels texels, uint i) { return unpackFloats21(unpackUint2x32(texels.texel[i])); }
 
 // In texels, from the middle of the first.
 vec2 placeOnAtlas(BakedLight baked, vec2 bakeUv) { return bakeUv * vec2(baked.lastTexel + 1) - 0.5; }
@@ -15,14 +19,12 @@ vec2 placeOnAtlas(BakedLight baked, vec2 bakeUv) { return bakeUv * vec2(baked.la
 vec3 atlasIrradiance(BakedLight baked, vec2 place)
 {
     uint width = uint(baked.lastTexel.x) + 1u, last = width * uint(baked.lastTexel.y) - 2u;
-    ivec2 low = ivec2(place);
+    ivec2 low = wholeOf(place);
     uint first = min(uint(low.y) * width + uint(low.x), last);
     vec2 part = place - vec2(low), rest = 1.0 - part;
     Texels texels = Texels(baked.texels);
-    uvec2 lowLow = texels.texel[first], lowHigh = texels.texel[first + 1u];
-    uvec2 highLow = texels.texel[first + width], highHigh = texels.texel[first + width + 1u];
-    return rest.x * rest.y * unpackFloats21(lowLow) + part.x * rest.y * unpackFloats21(lowHigh) + rest.x * part.y * unpackFloats21(highLow) +
-           part.x * part.y * unpackFloats21(highHigh);
+    return rest.x * rest.y * texelAt(texels, first) + part.x * rest.y * texelAt(texels, first + 1u) +
+           rest.x * part.y * texelAt(texels, first + width) + part.x * part.y * texelAt(texels, first + width + 1u);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // Three floats in two words, 21 bits each: sign, exponent and twelve bits behind the point, within 0.013 %. Halves would take as much room
-// and cost CPU devices more to unpack.
+// and cost CPU devices more to unpack. The lowest bit of the second word is free.
 #ifndef LIB_FLOAT21_GLSL
 #define LIB_FLOAT21_GLSL
 

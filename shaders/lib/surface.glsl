@@ -59,4 +59,10 @@ float sameFacing(PixelPlane plane, vec3 normalThere)
     return c * c;
 }
 
+// 1 for a neighbour of the plane's own surface, towards 0 for another's; `offset` in pixels.
+float likeness(PixelPlane plane, vec2 offset, float depthViewThere, vec3 normalThere)
+{
+    return samePlane(plane, offset, depthViewThere) * sameFacing(plane, normalThere);
+}
+
 #endif

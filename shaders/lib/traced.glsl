@@ -1,4 +1,4 @@
-// A traced pixel and the surface it belongs to in one texel of four words: CPU devices pay for every fetch. Needs lib/surface.glsl.
+// A traced pixel and the surface it belongs to in one texel of four words: CPU devices pay for every fetch.
 #ifndef LIB_TRACED_GLSL
 #define LIB_TRACED_GLSL
 
@@ -29,12 +29,6 @@ TracedPixel unpackTraced(uvec4 words)
     uint rest = words.y >> 16u;
     return TracedPixel(vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y & 0xffffu).x), rest >> 6u, unpackedDistance(rest & 63u),
                        uintBitsToFloat(words.z), unpackSnorm2x16(words.w));
-}
-
-// 1 for a traced neighbour of the plane's own surface, towards 0 for another's; `offset` in pixels of the G-buffer.
-float likeness(PixelPlane plane, vec2 offset, TracedPixel there)
-{
-    return there.depthView > 0.0 ? samePlane(plane, offset, there.depthView) * sameFacing(plane, unitFromOctahedral(there.normal)) : 0.0;
 }
 
 #endif

@@ -29,6 +29,9 @@ const uint kViewReference = 6u;
 
 const uint kAbsent = 0xffffffffu; // a slot of nothing
 
+// Threads of a group, side by side: CPU devices read rows of an image at their caches' pace.
+const uint kComposeGroupWidth = 64u;
+
 struct Composite
 {
     uint64_t counters;
@@ -40,8 +43,7 @@ struct Composite
     uint traced; // traced pixels of the occluded irradiance
     uint areaDiffuse; // of area lights: W/m^2,
     uint areaSpecular; // W/(m^2 sr)
-    int pixelScale; // of their image to the G-buffer: 1, 2, 4
-    ivec2 lastTraced;
+    int pixelScale; // of the pixels that things were found for to the G-buffer's: 1, 2, 4
     uint reference; // kAbsent: none
     uint isReferenceShown; // in place of what was traced
     uint picture; // written

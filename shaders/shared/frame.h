@@ -26,7 +26,7 @@ struct FrameBlock
     vec3 rayY; // and a pixel down
     float near; // metres; view depth is near / reversed depth
     uint environment; // slot of the equirectangular map
-    float environmentRotation; // radians about +Y
+    vec2 environmentTurn; // cosine and sine of its angle about +Y
     float environmentIntensity;
     vec3 radianceSh[kMostShCoefficients];   // of the environment, rotated and scaled; W/(m^2 sr)
     vec3 irradianceSh[kMostShCoefficients]; // the same, convolved with the clamped cosine; W/m^2

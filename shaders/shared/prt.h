@@ -1,16 +1,14 @@
-// Baked light: what the passes that light it anew take, and what they make.
+// Baked light: what the passes that light it anew take, and what they make. Needs shared/frame.h.
 #ifndef SHARED_PRT_H
 #define SHARED_PRT_H
 
-const uint kIrradianceWords = 14u; // of a cell: all that a surface's irradiance takes
-const uint kCellWords = 25u;
-
-// The radiance that comes in at a cell of the irradiance volume, W/(m^2 sr), in halves [coefficient * 3 + channel]: three bands, then
-// whether the cell is open, 1 or 0, then the fourth band, and one that is unused. Closed cells are dark.
+// The radiance that comes in at a cell of the irradiance volume, W/(m^2 sr), as in lib/float21.glsl. Closed cells are dark.
 struct CellBlock
 {
-    uint halves[kCellWords];
+    uvec2 radiance[kLocalShCoefficients]; // the lowest bit of the first's second word: whether the cell is open
 };
+
+const uint kCellIsOpen = 1u;
 
 struct PrtRelight
 {

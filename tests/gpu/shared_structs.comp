@@ -27,7 +27,7 @@ void echo(FrameBlock b)
     put(b.rayY);
     put(b.near);
     put(b.environment);
-    put(b.environmentRotation);
+    put(b.environmentTurn);
     put(b.environmentIntensity);
     for (int i = 0; i < b.radianceSh.length(); ++i)
         put(b.radianceSh[i]);
@@ -275,8 +275,8 @@ void echo(ProbeBlock b)
 #define Block CellBlock
 void echo(CellBlock b)
 {
-    for (int i = 0; i < b.halves.length(); ++i)
-        put(b.halves[i]);
+    for (int i = 0; i < b.radiance.length(); ++i)
+        put(b.radiance[i]);
 }
 
 #elif defined(IRRADIANCE_CASE)

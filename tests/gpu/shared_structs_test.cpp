@@ -7,7 +7,7 @@ namespace {
 TEST_F(SharedStructs, FrameBlock)
 {
     expectSameLayout<shader::FrameBlock>("FRAME_BLOCK", [](const auto& b) {
-        return wordsOf(b.clipFromWorld, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentRotation,
+        return wordsOf(b.clipFromWorld, b.eye, b.cornerRay, b.rayX, b.rayY, b.near, b.environment, b.environmentTurn,
                        b.environmentIntensity, b.radianceSh, b.irradianceSh, b.baked.texels, b.baked.cells, b.baked.origin,
                        b.baked.cellsPerMetre, b.baked.lastCell, b.baked.lastTexel, b.baked.outside, b.baked.sentOn);
     });
@@ -24,7 +24,7 @@ TEST_F(SharedStructs, GBufferDraw)
 
 TEST_F(SharedStructs, CellBlock)
 {
-    expectSameLayout<shader::CellBlock>("CELL_BLOCK", [](const auto& b) { return wordsOf(b.halves); });
+    expectSameLayout<shader::CellBlock>("CELL_BLOCK", [](const auto& b) { return wordsOf(b.radiance); });
 }
 
 TEST_F(SharedStructs, MaterialBlock)

@@ -13,7 +13,6 @@ namespace {
 using graph::Use;
 using scene::LightShadow;
 
-constexpr gpu::Format kLitFormat = gpu::Format::Rgba16Float;
 constexpr gpu::Format kMeanFormat = gpu::Format::Rgba32Float;
 
 std::string_view passOf(LightShadow shadow)
@@ -175,38 +174,10 @@ AreaLit AreaLightSystem::declareLights(graph::FrameGraph& graph, const LitFrame&
     const graph::BufferRef shares = declareShares(graph, frame, range);
     graph::Pass pass = graph.add(passOf(range.shadow));
     counters = pass.write(counters, Use::StorageWrite);
-    const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth, .scale = 1.0f / static_cast<float>(frame.pixels.scale)};
+    const graph::ImageDesc desc{.format = AreaLit::kFormat, .like = frame.g->depth, .scale = 1.0f / static_cast<float>(frame.pixels.scale)};
     const AreaLit made{pass.create("area diffuse", desc, Use::StorageWrite),
-                       frame.isGlossy ? pass.create("area specular", desc, Use::StorageWrite) : graph::ImageRef{}};
+                       frame.isGlossy ? pass.create("area specular", desc, Use::StorageWrite) : graph::ImageRef{}, frame.pixels.scale};
     declareShade(pass, frame, range, {.before = before, .made = made, .shares = shares, .rays = frame.view->knobs.area.rays}, counters);
-    return made;
-}
-
-AreaLit AreaLightSystem::declareUpsample(graph::FrameGraph& graph, const LitFrame& frame, const AreaLit& lit)
-{
-    gpu::Pipeline& pipeline = upsample_[frame.isGlossy ? 1 : 0];
-    constexpr gpu::ShaderDefine glossy{"GLOSSY"};
-    if (!pipeline)
-        pipeline = computePipeline(*device_, "area_upsample.comp", std::span(&glossy, frame.isGlossy ? 1 : 0));
-    graph::Pass pass = graph.add("area upsample");
-    for (const graph::ImageRef image : {frame.g->depth, frame.g->normals, lit.diffuse, lit.specular})
-        if (image)
-            pass.read(image, Use::Sampled);
-    const graph::ImageDesc desc{.format = kLitFormat, .like = frame.g->depth};
-    const AreaLit made{pass.create("area diffuse, upsampled", desc, Use::StorageWrite),
-                       frame.isGlossy ? pass.create("area specular, upsampled", desc, Use::StorageWrite) : graph::ImageRef{}};
-    pass.record([&pipeline, slot = frame.slot, g = *frame.g, lit, made, scale = frame.pixels.scale](graph::Recorder& recorder) {
-        recorder.dispatch(pipeline,
-                          shader::AreaUpsample{.frame = slot,
-                                               .depth = recorder.sampled(g.depth),
-                                               .normals = recorder.sampled(g.normals),
-                                               .diffuseLit = recorder.sampled(lit.diffuse),
-                                               .specularLit = lit.specular ? recorder.sampled(lit.specular) : 0,
-                                               .diffuse = recorder.storage(made.diffuse),
-                                               .specular = made.specular ? recorder.storage(made.specular) : 0,
-                                               .pixelScale = static_cast<int>(scale)},
-                          recorder.extent(g.depth) / scale + 2u);
-    });
     return made;
 }
 
@@ -214,7 +185,7 @@ void AreaLightSystem::skipAll(graph::FrameGraph& graph)
 {
     constexpr std::string_view reason = "no AreaLight in the scene";
     for (const std::string_view pass : {"area tiles", "area analytic", "area triangles", "area unshadowed", "area traced", "area reference",
-                                        "area ratio", "area article", "area two-sided", "area upsample"})
+                                        "area ratio", "area article", "area two-sided"})
         graph.skip(pass, reason);
     skipFieldShadow(graph, reason);
     RatioShadowSystem::skip(graph, reason);
@@ -254,9 +225,6 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
         lit = range.shadow == LightShadow::Reference ? declareReference(graph, frame, range, counters)
                                                      : declareLights(graph, frame, range, lit, counters);
     }
-    if (scale > 1)
-        return declareUpsample(graph, frame, lit);
-    graph.skip("area upsample", "area light is found for every pixel");
     return lit;
 }
 

@@ -18,8 +18,11 @@ namespace antumbra::render {
 /// Absent without area lights.
 struct AreaLit
 {
+    static constexpr gpu::Format kFormat = gpu::Format::Rgba16Float;
+
     graph::ImageRef diffuse;  // W/m^2, cosine-weighted, without what metal swallows
     graph::ImageRef specular; // W/(m^2 sr) towards the eye; absent where nothing reflects so
+    uint32_t pixelScale = 1;  // of the images to the G-buffer: 1, 2, 4
 };
 
 class AreaLightSystem
@@ -57,7 +60,6 @@ private:
     graph::BufferRef declareShares(graph::FrameGraph& graph, const LitFrame& frame, const AreaLightRange& range);
     void declareShade(graph::Pass& pass, const LitFrame& frame, const AreaLightRange& range, const Shading& shading,
                       graph::BufferRef counters);
-    AreaLit declareUpsample(graph::FrameGraph& graph, const LitFrame& frame, const AreaLit& lit);
 
     gpu::Device* device_;
     AreaBodies bodies_;
@@ -67,8 +69,7 @@ private:
     PenumbraSystem penumbras_;
     graph::BufferRef occluderTiles_, seenPastFields_; // of the frame that is declared
     gpu::Pipeline tiles_;
-    std::array<gpu::Pipeline, 2> upsample_; // by whether glossy
-    gpu::Image ltcMatrix_, ltcAmplitude_;   // only while something glossy is lit
+    gpu::Image ltcMatrix_, ltcAmplitude_; // only while something glossy is lit
     graph::HistorySlot diffuseHistory_, specularHistory_;
     uint64_t seen_ = 0;
     uint32_t referenceFrames_ = 0;

@@ -3,7 +3,6 @@
 #include "base/check.h"
 
 #include <array>
-#include <glm/gtc/packing.hpp>
 
 namespace antumbra::render {
 
@@ -12,7 +11,7 @@ namespace {
 using graph::Use;
 
 constexpr uint32_t kRows = bake::kLocalCoefficients;
-static_assert(kRows * 3 + 2 == 2 * shader::kCellWords); // openness, and one unused
+static_assert(kRows == shader::kLocalShCoefficients);
 
 void checkWhole(const bake::Bake& bake)
 {
@@ -40,7 +39,7 @@ std::vector<shader::CellBlock> cellsOf(const bake::IrradianceVolume& volume)
 {
     std::vector<shader::CellBlock> cells(volume.isOpen.size());
     for (size_t i = 0; i < cells.size(); ++i)
-        cells[i].halves[shader::kIrradianceWords - 1] = uint32_t{glm::packHalf1x16(volume.isOpen[i] != 0 ? 1.0f : 0.0f)} << 16;
+        cells[i].radiance[0].y = volume.isOpen[i] != 0 ? shader::kCellIsOpen : 0;
     return cells;
 }
 
@@ -110,7 +109,7 @@ void PrtSystem::declareVolume(graph::FrameGraph& graph, uint32_t frame, Baked& b
                                                 .frame = frame,
                                                 .coefficientCount = held_->bake->settings.coefficientCount(),
                                                 .cellCount = cellCount},
-                          {cellCount, (kRows + 2) / 2}, {64, 1});
+                          {cellCount, kRows}, {64, 1});
     });
 }
 
