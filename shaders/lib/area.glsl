@@ -43,47 +43,57 @@ vec3 lobePlane(int edge, mat3 lobe, mat3 lobeOfPlanes)
 void placeLight(mat3 lobe, vec3 horizon)
 {
     const int kUncut = 1, kCutOnce = 2;
-    beginPolygon(kUncut);
+    int uncutCount = 0;
     for (int i = 0; i < outlineCount; ++i) {
         vec3 corner = lobe * outline[i], next = lobe * outline[i + 1 < outlineCount ? i + 1 : 0];
-        addCorner(kUncut, unitOrZero(corner), planeThrough(corner, next - corner).z);
+        addCorner(kUncut, uncutCount, unitOrZero(corner), planeThrough(corner, next - corner).z);
     }
+    cornerCounts[kUncut] = uncutCount;
     cut(kUncut, crossingOf(kUncut, vec3(0.0, 0.0, 1.0)), kCutOnce, kUncut, false, true);
     for (int i = 0; i < cornerCounts[kCutOnce]; ++i)
         polygonCorners[kCutOnce * POLYGON_CORNERS + i].z = max(polygonCorners[kCutOnce * POLYGON_CORNERS + i].z, 0.0);
     cut(kCutOnce, crossingOf(kCutOnce, horizon), 0, kUncut, false, true);
 }
 
-// The search: polygons of light, each with the occluders that are still to be taken from it.
-int framePlace[kFrames];
-float frameSign[kFrames];
-int frameOccluder[kFrames]; // the next one, or the one that is being split by
-int frameEdge[kFrames]; // the next edge to split by; -1: none is
-int scratchA, scratchB;
-bool hiddenFits;
+// Places of polygons that hold none, a bit each.
+const int kPlaceWords = (kFrames + 33) / 32; // two are for what is being cut
+uint freePlaces[kPlaceWords];
 
-// The part of the polygon that the occluder hides, in scratchA; whether there is any. Both scratch places may change names. Where the part
-// needs more corners than there are, hiddenFits gets false.
-bool findHidden(int place, int occluder)
+int takePlace()
 {
-    int from = place;
+    int word = 0;
+    for (int i = 1; i < kPlaceWords; ++i)
+        word = freePlaces[word] == 0u ? i : word;
+    int place = 32 * word + findLSB(freePlaces[word]);
+    freePlaces[word] &= freePlaces[word] - 1u;
+    return place;
+}
+
+void givePlace(int place) { freePlaces[kPlaceWords == 1 ? 0 : place / 32] |= 1u << uint(place % 32); }
+
+// The place of the polygon's part that the occluder hides, which is `place` itself where all is hidden; kNowhere: none is. Not `fits`: the
+// part needs more corners than there are.
+const int kNowhere = -1;
+int findHidden(int place, int occluder, out bool fits)
+{
+    int from = place, next = takePlace(), other = takePlace(), end = occluderEnd[occluder];
     bool isHit = true;
-    hiddenFits = true;
-    for (int edge = occluderFirst[occluder]; edge < occluderEnd[occluder] && isHit; ++edge) {
+    fits = true;
+    for (int edge = occluderFirst[occluder]; edge < end && isHit; ++edge) {
         Crossing crossing = crossingOf(from, lobePlanes[edge]);
-        hiddenFits = hiddenFits && (!isCut(crossing) || hasRoomForCut(from));
-        cut(from, crossing, scratchB, scratchA, false, isCut(crossing));
+        fits = fits && (!isCut(crossing) || hasRoomForCut(from));
+        cut(from, crossing, next, other, false, isCut(crossing));
         if (isCut(crossing)) {
-            int made = scratchB;
-            scratchB = scratchA;
-            scratchA = made;
-            from = scratchA;
+            from = next;
+            next = other;
+            other = from;
         }
         isHit = crossing.hasFront && cornerCounts[from] > 0;
     }
-    if (from == place)
-        cornerCounts[scratchA] = 0; // all of it is hidden
-    return isHit;
+    givePlace(next);
+    if (!isHit || from == place)
+        givePlace(other);
+    return isHit ? from : kNowhere;
 }
 
 bool isInsideOccluder(vec3 direction, int occluder)
@@ -118,29 +128,61 @@ float sampledShare(int place, int first)
     return seen / all;
 }
 
-// Goes on with the frame at the top; returns the frame that is the top then.
-int splitFurther(int top)
+// The search: polygons of light, each with the occluders that are still to be taken from it.
+struct Frame
 {
-    int place = framePlace[top], occluder = frameOccluder[top], edge = frameEdge[top];
-    if (edge == occluderEnd[occluder] || cornerCounts[place] == 0)
-        return top - 1; // what is left is hidden
-    Crossing crossing = crossingOf(place, lobePlanes[edge]);
-    frameEdge[top] = edge + 1;
+    int place; // kNowhere: there is none left
+    bool isTaken; // away from what is seen, instead of added to it
+    int occluder; // the next one, or the one that is being split by
+    int edge; // the next edge to split by; -1: none is
+};
+
+// Those that wait, a word each: CPU devices pay for every word that threads find at places of their own. From bit 0 the place, from 7 the
+// occluder, from 17 the edge and one, in 31 whether it is taken.
+#if POLYGON_PLACES > 1 << 7 || AREA_OCCLUDERS >= 1 << 10 || SILHOUETTE_EDGES >= 1 << 14
+#error "a frame does not fit its word"
+#endif
+uint frames[kFrames];
+int frameCount;
+
+void pushFrame(Frame frame)
+{
+    frames[frameCount++] = uint(frame.place) | uint(frame.occluder) << 7u | uint(frame.edge + 1) << 17u | uint(frame.isTaken) << 31u;
+}
+
+// Done with a frame: the next.
+Frame nextFrame(Frame frame)
+{
+    givePlace(frame.place);
+    if (frameCount == 0)
+        return Frame(kNowhere, false, 0, -1);
+    uint word = frames[--frameCount];
+    return Frame(int(word & 0x7fu), word >> 31u != 0u, int(word >> 7u & 0x3ffu), int(word >> 17u & 0x3fffu) - 1);
+}
+
+// Goes on splitting by the frame's occluder; returns the frame to go on with.
+Frame splitFurther(Frame frame)
+{
+    if (frame.edge == occluderEnd[frame.occluder] || cornerCounts[frame.place] == 0)
+        return nextFrame(frame); // what is left is hidden
+    Crossing crossing = crossingOf(frame.place, lobePlanes[frame.edge]);
+    ++frame.edge;
     if (!crossing.hasBehind)
-        return top;
-    if (!crossing.hasFront) {
-        frameOccluder[top] = occluder + 1; // all of it is outside
-        frameEdge[top] = -1;
-        return top;
+        return frame;
+    Frame outside = Frame(frame.place, frame.isTaken, frame.occluder + 1, -1);
+    if (!crossing.hasFront)
+        return outside; // all of it
+    int before = frame.place;
+    frame.place = takePlace();
+    outside.place = takePlace();
+    cut(before, crossing, frame.place, outside.place, true, true);
+    givePlace(before);
+    if (cornerCounts[outside.place] == 0) {
+        givePlace(outside.place);
+        return frame;
     }
-    int outside = framePlace[top + 1];
-    cut(place, crossing, scratchA, outside, true, true);
-    framePlace[top] = scratchA;
-    scratchA = place;
-    frameSign[top + 1] = frameSign[top];
-    frameOccluder[top + 1] = occluder + 1;
-    frameEdge[top + 1] = -1;
-    return cornerCounts[outside] > 0 ? top + 1 : top;
+    pushFrame(frame);
+    return outside;
 }
 
 #ifdef TWO_LOBES
@@ -153,14 +195,14 @@ AreaShare secondShare;
 float secondFormFactor(int place, bool isWanted)
 {
     const int kUncut = POLYGON_PLACES - 2, kAbove = POLYGON_PLACES - 1;
-    int count = isWanted ? cornerCounts[place] : 0, base = place * POLYGON_CORNERS;
-    beginPolygon(kUncut);
+    int count = isWanted ? cornerCounts[place] : 0, base = place * POLYGON_CORNERS, uncutCount = 0;
     vec3 corner = secondLobe * polygonCorners[base].xyz;
     for (int i = 0; i < count; ++i) {
         vec3 next = secondLobe * polygonCorners[base + (i + 1 < count ? i + 1 : 0)].xyz;
-        addCorner(kUncut, unitOrZero(corner), planeThrough(corner, next - corner).z);
+        addCorner(kUncut, uncutCount, unitOrZero(corner), planeThrough(corner, next - corner).z);
         corner = next;
     }
+    cornerCounts[kUncut] = uncutCount;
     Crossing horizon = crossingOf(kUncut, vec3(0.0, 0.0, 1.0));
     cut(kUncut, horizon, kAbove, kUncut, false, isCut(horizon));
     return formFactor(isCut(horizon) ? kAbove : kUncut, isWanted && horizon.hasFront);
@@ -187,66 +229,59 @@ AreaShare visibleShare(uint mostPieces)
     secondShare = AreaShare(clamp(secondFormFactor(0, true), 0.0, 1.0), 0.0, 0u, 0u);
 #endif
     bool isSplit = false; // the light itself
-    for (int i = 0; i < kFrames; ++i)
-        framePlace[i] = i;
-    scratchA = kFrames;
-    scratchB = kFrames + 1;
-    frameSign[0] = 1.0;
-    frameOccluder[0] = 0;
-    frameEdge[0] = -1;
-    int top = cornerCounts[0] > 0 ? 0 : -1;
-    while (top >= 0) {
-        int place = framePlace[top];
-        bool isFull = top + 1 >= kFrames || !hasRoomForCut(place) || found.pieces >= mostPieces;
+    for (int i = 0; i < kPlaceWords; ++i)
+        freePlaces[i] = 0xffffffffu;
+    freePlaces[0] = 0xfffffffeu;
+    frameCount = 0;
+    Frame frame = Frame(cornerCounts[0] > 0 ? 0 : kNowhere, false, 0, -1);
+    while (frame.place != kNowhere) {
+        bool isFull = frameCount + 1 >= kFrames || !hasRoomForCut(frame.place) || found.pieces >= mostPieces;
 #if AREA_SIGNED < AREA_OCCLUDERS
-        if (frameEdge[top] >= 0 && !isFull) {
-            top = splitFurther(top);
+        if (frame.edge >= 0 && !isFull) {
+            frame = splitFurther(frame);
             isSplit = true;
             continue;
         }
 #endif
-        int occluder = frameOccluder[top];
-        bool isHit = false;
-        while (occluder < occluderCount && !isHit && !isFull) {
-            isHit = findHidden(place, occluder);
-            isFull = !hiddenFits;
-            occluder += isHit ? 0 : 1;
+        int occluder = frame.occluder, hidden = kNowhere;
+        while (occluder < occluderCount && hidden == kNowhere && !isFull) {
+            bool fits;
+            hidden = findHidden(frame.place, occluder, fits);
+            isFull = !fits;
+            occluder += hidden == kNowhere ? 1 : 0;
         }
-        isHit = isHit && !isFull;
-        if (isHit && cornerCounts[scratchA] == 0) {
-            --top; // all of it is hidden
-        } else if (isHit && occluderCount - occluder > AREA_SIGNED) {
-            frameOccluder[top] = occluder;
-            frameEdge[top] = occluderFirst[occluder];
-        } else {
+        bool isHit = hidden != kNowhere && !isFull;
+        if (isHit && hidden == frame.place) {
+            frame = nextFrame(frame); // all of it is hidden
+            continue;
+        }
+        bool goesOn = isHit && occluderCount - occluder > 1;
+        if (isHit && occluderCount - occluder > AREA_SIGNED) {
+            frame.occluder = occluder;
+            frame.edge = occluderFirst[occluder];
+            givePlace(hidden);
+        } else if (goesOn) {
             // Few are left: what is hidden is taken away again, which makes fewer pieces than splitting around it.
-            bool goesOn = isHit && occluderCount - occluder > 1;
-            if (goesOn) {
-                int hidden = scratchA;
-                scratchA = framePlace[top + 1];
-                framePlace[top + 1] = hidden;
-                frameSign[top + 1] = -frameSign[top];
-                frameOccluder[top] = occluder + 1;
-                frameOccluder[top + 1] = occluder + 1;
-                frameEdge[top] = -1;
-                frameEdge[top + 1] = -1;
-                ++top;
-                continue;
-            }
-            float share = isFull ? sampledShare(place, frameOccluder[top]) : 1.0;
-            bool isKnown = top == 0 && !isSplit;
-            float whole = isKnown ? found.unoccluded : formFactor(place, !isKnown);
-            found.visible += frameSign[top] * share * (whole - formFactor(scratchA, isHit));
+            pushFrame(Frame(frame.place, frame.isTaken, occluder + 1, -1));
+            frame = Frame(hidden, !frame.isTaken, occluder + 1, -1);
+        } else {
+            float share = (isFull ? sampledShare(frame.place, frame.occluder) : 1.0) * (frame.isTaken ? -1.0 : 1.0);
+            bool isKnown = frameCount == 0 && !isSplit;
+            int taken = isHit ? hidden : frame.place;
+            float whole = isKnown ? found.unoccluded : formFactor(frame.place, !isKnown);
+            found.visible += share * (whole - formFactor(taken, isHit));
 #ifdef TWO_LOBES
-            whole = isKnown ? secondShare.unoccluded : secondFormFactor(place, !isKnown);
-            secondShare.visible += frameSign[top] * share * (whole - secondFormFactor(scratchA, isHit));
+            whole = isKnown ? secondShare.unoccluded : secondFormFactor(frame.place, !isKnown);
+            secondShare.visible += share * (whole - secondFormFactor(taken, isHit));
 #endif
 #ifdef PIECES_ARE_TOLD
-            tellPiece(place);
+            tellPiece(frame.place);
 #endif
             found.fallbacks += isFull ? 1u : 0u;
             found.pieces += isHit ? 2u : 1u;
-            --top;
+            if (hidden != kNowhere)
+                givePlace(hidden);
+            frame = nextFrame(frame);
         }
     }
     found.visible = withoutRounding(found.visible, found.unoccluded);

@@ -13,12 +13,11 @@ int cornerCounts[POLYGON_PLACES];
 
 const float kOnPlane = 2.0e-7; // a corner this near a plane, of unit vectors, lies on it: rounding of four products
 
-void beginPolygon(int place) { cornerCounts[place] = 0; }
-
-void addCorner(int place, vec3 direction, float planeZ)
+// Counts are kept by who adds corners, as CPU devices pay for memory that threads find at places of their own.
+void addCorner(int place, inout int count, vec3 direction, float planeZ)
 {
-    if (cornerCounts[place] < POLYGON_CORNERS)
-        polygonCorners[place * POLYGON_CORNERS + cornerCounts[place]++] = vec4(direction, planeZ);
+    if (count < POLYGON_CORNERS)
+        polygonCorners[place * POLYGON_CORNERS + count++] = vec4(direction, planeZ);
 }
 
 // A cut adds one corner at most.
@@ -43,9 +42,9 @@ float sideOf(vec3 plane, vec3 corner)
 // A convex polygon meets a plane at most twice: more changes of side come from rounding, and the weaker side is no side.
 Crossing crossingOf(int place, vec3 plane)
 {
-    int changes = 0;
+    int changes = 0, count = cornerCounts[place];
     float last = 0.0, first = 0.0, mostInFront = 0.0, mostBehind = 0.0;
-    for (int i = 0; i < cornerCounts[place]; ++i) {
+    for (int i = 0; i < count; ++i) {
         float side = sideOf(plane, polygonCorners[place * POLYGON_CORNERS + i].xyz);
         mostInFront = max(mostInFront, side);
         mostBehind = max(mostBehind, -side);
@@ -71,11 +70,7 @@ vec3 cornerBetween(vec3 front, float frontSide, vec3 behind, float behindSide)
 // different places. Unless `isCrossed` nothing happens: loops that do not go round are what spares CPU devices the work.
 void cut(int from, Crossing crossing, int front, int behind, bool wantsBehind, bool isCrossed)
 {
-    int count = isCrossed ? cornerCounts[from] : 0, base = from * POLYGON_CORNERS;
-    if (isCrossed)
-        beginPolygon(front);
-    if (isCrossed && wantsBehind)
-        beginPolygon(behind);
+    int count = isCrossed ? cornerCounts[from] : 0, base = from * POLYGON_CORNERS, frontCount = 0, behindCount = 0;
     vec4 corner = polygonCorners[base];
     float a = sideOf(crossing.plane, corner.xyz);
     a = a * crossing.dropped > 0.0 ? 0.0 : a;
@@ -84,22 +79,22 @@ void cut(int from, Crossing crossing, int front, int behind, bool wantsBehind, b
         float b = sideOf(crossing.plane, next.xyz);
         b = b * crossing.dropped > 0.0 ? 0.0 : b;
         if (a >= 0.0)
-            addCorner(front, corner.xyz, a > 0.0 || b >= 0.0 ? corner.w : crossing.plane.z);
+            addCorner(front, frontCount, corner.xyz, a > 0.0 || b >= 0.0 ? corner.w : crossing.plane.z);
         if (wantsBehind && a <= 0.0)
-            addCorner(behind, corner.xyz, a < 0.0 || b <= 0.0 ? corner.w : -crossing.plane.z);
+            addCorner(behind, behindCount, corner.xyz, a < 0.0 || b <= 0.0 ? corner.w : -crossing.plane.z);
         if (a * b < 0.0) {
             vec3 at = a > 0.0 ? cornerBetween(corner.xyz, a, next.xyz, b) : cornerBetween(next.xyz, b, corner.xyz, a);
-            addCorner(front, at, a > 0.0 ? crossing.plane.z : corner.w);
+            addCorner(front, frontCount, at, a > 0.0 ? crossing.plane.z : corner.w);
             if (wantsBehind)
-                addCorner(behind, at, a > 0.0 ? corner.w : -crossing.plane.z);
+                addCorner(behind, behindCount, at, a > 0.0 ? corner.w : -crossing.plane.z);
         }
         corner = next;
         a = b;
     }
     if (isCrossed)
-        cornerCounts[front] = cornerCounts[front] < 3 ? 0 : cornerCounts[front];
+        cornerCounts[front] = frontCount < 3 ? 0 : frontCount;
     if (isCrossed && wantsBehind)
-        cornerCounts[behind] = cornerCounts[behind] < 3 ? 0 : cornerCounts[behind];
+        cornerCounts[behind] = behindCount < 3 ? 0 : behindCount;
 }
 
 // theta / sin theta - 1 for the arc of a chord, by its square: the series of asin(sqrt s) / sqrt(s (1 - s)), s = chord^2 / 4.

@@ -21,10 +21,10 @@ struct CellLight
 };
 
 // A corner of the outline and the next, both relative to the point; corners run as lib/cone_polygon.glsl has them. To place kCellLight + 1.
-void addCellCorner(mat3 frame, vec3 corner, vec3 next)
+void addCellCorner(mat3 frame, inout int count, vec3 corner, vec3 next)
 {
     vec3 a = normalize(corner * frame), plane = cross(a, normalize(next * frame) - a);
-    addCorner(kCellLight + 1, a, plane.z * inversesqrt(max(dot(plane, plane), 1.0e-30)));
+    addCorner(kCellLight + 1, count, a, plane.z * inversesqrt(max(dot(plane, plane), 1.0e-30)));
 }
 
 // Where a division's planes are: the direction c + x e1 + y e2 has the coordinates x and y.
@@ -116,8 +116,8 @@ float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch f
     return mix(march.least > 0.0 ? whole : 0.0, seen, edgeCertainty(slope));
 }
 
-// Share of the light's form factor that is seen; 1 where none of it is over the horizon. After beginPolygon(kCellLight + 1) and
-// addCellCorner for each corner.
+// Share of the light's form factor that is seen; 1 where none of it is over the horizon. After addCellCorner for each corner;
+// their count is that of place kCellLight + 1.
 float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint count)
 {
     cut(kCellLight + 1, crossingOf(kCellLight + 1, vec3(0.0, 0.0, 1.0)), kCellLight, kCell, false, true);

@@ -20,9 +20,10 @@ float lightVisibility(FieldsBlock fields, BodyArrays arrays, BodyBlock light, ve
     if (!beginLight(arrays, light, p))
         return 1.0;
     mat3 frame = tangentFrame(normal);
-    beginPolygon(kCellLight + 1);
+    int count = 0;
     for (int i = 0; i < outlineCount; ++i)
-        addCellCorner(frame, outline[i], outline[i + 1 < outlineCount ? i + 1 : 0]);
+        addCellCorner(frame, count, outline[i], outline[i + 1 < outlineCount ? i + 1 : 0]);
+    cornerCounts[kCellLight + 1] = count;
     return cellVisibility(fields, p, frame, cellPlane(arrays, light, p), cells);
 }
 

@@ -27,10 +27,11 @@ Out evaluate(In x)
     vec3 a = x.corner - x.position, across = cross(x.edgeA, x.edgeB);
     vec3 corners[4] = vec3[4](a, a + x.edgeA, a + x.edgeA + x.edgeB, a + x.edgeB);
     mat3 frame = tangentFrame(x.normal);
-    beginPolygon(kCellLight + 1);
     bool isTurned = dot(a, across) > 0.0;
+    int count = 0;
     for (int i = 0; i < 4; ++i)
-        addCellCorner(frame, corners[isTurned ? i : 3 - i], corners[isTurned ? (i + 1) % 4 : (6 - i) % 4]);
+        addCellCorner(frame, count, corners[isTurned ? i : 3 - i], corners[isTurned ? (i + 1) % 4 : (6 - i) % 4]);
+    cornerCounts[kCellLight + 1] = count;
     vec3 normal = normalize(across) * (isTurned ? 1.0 : -1.0);
     vec4 plane = vec4(normal, dot(normal, a));
 #ifdef CELLS

@@ -36,11 +36,12 @@ struct In { vec3 corners[32]; uint count; vec3 plane; };
 struct Out { float whole; float front; float behind; uint sides; uint frontCorners; uint behindCorners; };
 Out evaluate(In x)
 {
-    beginPolygon(0);
+    int count = 0;
     for (uint i = 0u; i < x.count; ++i) {
         vec3 normal = cross(x.corners[i], x.corners[(i + 1u) % x.count]);
-        addCorner(0, x.corners[i], normal.z / max(length(normal), 1.0e-30));
+        addCorner(0, count, x.corners[i], normal.z / max(length(normal), 1.0e-30));
     }
+    cornerCounts[0] = count;
     Crossing crossing = crossingOf(0, x.plane);
     uint sides = (crossing.hasFront ? 1u : 0u) | (crossing.hasBehind ? 2u : 0u);
     cut(0, crossing, 1, 2, true, true);
