@@ -171,4 +171,11 @@ Sweep loadSweep(const Path& file)
     return sweep;
 }
 
+void checkKept(const Path& file, const Sweep& sweep, const Path& folder)
+{
+    std::error_code isMissing; // then nothing is there to be lost
+    if (std::filesystem::equivalent(file, folder / (sweep.name + ".json"), isMissing))
+        throw Error("results would overwrite it; they need another folder, or the sweep another name", file.string());
+}
+
 } // namespace antumbra::app

@@ -58,4 +58,7 @@ struct Sweep
 /// nearest known, wrong types and values out of range.
 Sweep loadSweep(const Path& file);
 
+/// Throws Error where the results, NAME.json in `folder`, would take the place of the file the sweep was read from.
+void checkKept(const Path& file, const Sweep& sweep, const Path& folder);
+
 } // namespace antumbra::app

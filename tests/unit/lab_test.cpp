@@ -123,6 +123,16 @@ TEST(Sweep, ThoseOfTheProjectAreRead)
     EXPECT_GE(count, 5u);
 }
 
+TEST(Sweep, ResultsDoNotTakeItsPlace)
+{
+    const TestFolder folder;
+    const Path file = folder / "light.json";
+    writeText(file, R"({"points": [{"scene": "hall"}]})");
+    const Sweep sweep = loadSweep(file);
+    EXPECT_THROW(checkKept(file, sweep, folder.path()), Error);
+    EXPECT_NO_THROW(checkKept(file, sweep, folder / "results"));
+}
+
 TEST(Sweep, AFitNamesATimeAndCounters)
 {
     const Sweep sweep = sweepOf(R"({"fit": {"time": "sky", "counters": ["a", "b"]}, "points": [{"scene": "hall"}]})");

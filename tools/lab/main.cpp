@@ -43,6 +43,7 @@ std::optional<Options> parse(int argc, char** argv)
 bool run(const Options& options)
 {
     app::Sweep sweep = app::loadSweep(options.sweep);
+    app::checkKept(options.sweep, sweep, options.output);
     if (sweep.measure == app::Measure::Bakes)
         return lab::BakeLab(std::move(sweep), options.output, options.resumes).run();
     return lab::Lab(std::move(sweep), options.output, options.resumes).run();
