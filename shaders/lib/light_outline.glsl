@@ -96,9 +96,9 @@ void findSolidOutline(BodyArrays arrays, BodyBlock light, vec3 point)
     if (isLightLost)
         return;
     for (uint word = 0u; word < FACE_WORDS; ++word)
-        frontFaces[word] = 0u;
+        frontFaces[faceWord(word)] = 0u;
     for (uint i = 0u; i < light.faceCount; ++i)
-        frontFaces[i >> 5u] |= seesFace(arrays, light, bodyFace(arrays, light, i), point, 1.0) ? 1u << (i & 31u) : 0u;
+        frontFaces[faceWord(i >> 5u)] |= seesFace(arrays, light, bodyFace(arrays, light, i), point, 1.0) ? 1u << (i & 31u) : 0u;
     uint next[LIGHT_VERTICES], starts[LIGHT_VERTICES];
     int edges = 0;
     for (uint i = 0u; i < light.edgeCount && edges < LIGHT_VERTICES; ++i) {

@@ -29,8 +29,10 @@ bool hasFaces; // some have area
 
 float greatestHeight; // of the point over the planes of their faces, metres
 
-bool isFront(uint face) { return (frontFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
-bool isLevel(uint face) { return (levelFaces[face >> 5u] >> (face & 31u) & 1u) != 0u; }
+// A single word is no array: CPU devices keep it in a register.
+uint faceWord(uint word) { return FACE_WORDS == 1 ? 0u : word; }
+bool isFront(uint face) { return (frontFaces[faceWord(face >> 5u)] >> (face & 31u) & 1u) != 0u; }
+bool isLevel(uint face) { return (levelFaces[faceWord(face >> 5u)] >> (face & 31u) & 1u) != 0u; }
 
 // Finds frontFaces, levelFaces, hasFaces and greatestHeight; whether there is any front one. `tolerance` in metres: so near its plane a
 // point is level with a face. A face without area has no sides: one that counted as front would make any body open.
@@ -51,8 +53,8 @@ bool findFronts(BodyArrays arrays, BodyBlock body, vec3 point, float tolerance)
             levels |= hasArea && abs(height) <= tolerance ? 1u << bit : 0u;
             hasFaces = hasFaces || hasArea;
         }
-        frontFaces[word] = fronts;
-        levelFaces[word] = levels;
+        frontFaces[faceWord(word)] = fronts;
+        levelFaces[faceWord(word)] = levels;
         hasFront = hasFront || fronts != 0u;
     }
     return hasFront;
@@ -167,9 +169,11 @@ void dropFalsePlanes(int first)
         float most2 = chord2 < 4.0e-4 ? min(0.25 * chord2, 1.0e-9) : 1.0e-7;
         if (lowest < -1.0e-6 && lowest * lowest > most2)
             continue;
-        edgeStarts[kept] = edgeStarts[i];
-        edgeSpans[kept] = edgeSpans[i];
-        edgePlanes[kept] = edgePlanes[i];
+        if (kept < i) { // seldom, and CPU devices pay for every word
+            edgeStarts[kept] = edgeStarts[i];
+            edgeSpans[kept] = edgeSpans[i];
+            edgePlanes[kept] = edgePlanes[i];
+        }
         ++kept;
     }
     edgeCount = kept;
