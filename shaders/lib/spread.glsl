@@ -3,20 +3,21 @@
 #ifndef LIB_SPREAD_GLSL
 #define LIB_SPREAD_GLSL
 
-// A permutation of the rows in which any run is spread over all of them: by steps of the golden section, as near as shares no divisor.
+// A permutation of the rows in which any run is spread over all of them: by steps of the golden section, as near as shares no divisor. In
+// floats, which are exact here, as CPU devices divide integers a lane at a time.
 uint spreadRow(uint row, uint rows)
 {
-    uint stride = max(uint(0.618034 * float(rows)), 1u);
-    for (uint divisor = 0u; divisor != 1u; ++stride) {
-        uint a = rows, b = stride;
-        while (b != 0u) {
-            uint rest = a % b;
+    float stride = max(floor(0.618034 * float(rows)), 1.0);
+    for (float divisor = 0.0; divisor != 1.0; ++stride) {
+        float a = float(rows), b = stride;
+        while (b != 0.0) {
+            float rest = abs(a - b * floor(a / b)); // of a quotient that a device rounded up too
             a = b;
             b = rest;
         }
         divisor = a;
     }
-    return row * (stride - 1u) % rows;
+    return row * uint(stride - 1.0) % rows;
 }
 
 // In place of gl_GlobalInvocationID, for groups of that many rows.
