@@ -13,8 +13,8 @@
 // First term minus occluded irradiance, times albedo over pi (Xu et al. 2022, eq. 2 and 3), and on to display values, all in registers:
 // CPU devices pay for every image that is read or written in between. Where nothing is, sky.frag draws the environment.
 // Variants: OCCLUDED takes traced pixels away from the first term; AREA_LIT adds the light of area lights, AREA_GLOSSY what of it is reflected
-// by GGX, AREA_UPSAMPLED: found for the pixels that are traced; DARK is black where nothing is; EXPLAINS keeps what lies behind the picture,
-// and shows it.
+// by GGX, AREA_UPSAMPLED where it was found for a pixel of every square; DARK is black where nothing is; EXPLAINS keeps what lies behind the
+// picture, and shows it.
 layout(local_size_x = kComposeGroupWidth) in; // a thread a block of pixels
 
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };

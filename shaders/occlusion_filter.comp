@@ -32,7 +32,7 @@ vec3 filtered(ivec2 pixel, TracedPixel centre, ivec2 last)
             TracedPixel neighbour = unpackTraced(texelFetch(sampledWordImages[pc.traced], there, 0));
             vec2 offset = vec2(there - pixel) * pc.pixelScale;
             vec3 apart = fromEye(frameBlock, full + offset, neighbour.depthView) - position;
-            float like = neighbour.depthView > 0.0 ? likeness(plane, offset, neighbour.depthView, unitFromOctahedral(neighbour.normal)) : 0.0;
+            float like = likeness(plane, offset, neighbour.depthView, unitFromOctahedral(neighbour.normal));
             float weight = like * withinPenumbra(apart, min(centre.blockerDistance, neighbour.blockerDistance));
             weight *= (abs(dx) == pc.radius ? 0.5 : 1.0) * (abs(dy) == pc.radius ? 0.5 : 1.0);
             sum += weight * neighbour.occluded;

@@ -116,8 +116,8 @@ float cellSeen(FieldsBlock fields, CellLight light, FieldCone wide, FieldMarch f
     return mix(march.least > 0.0 ? whole : 0.0, seen, edgeCertainty(slope));
 }
 
-// Share of the light's form factor that is seen; 1 where none of it is over the horizon. After addCellCorner for each corner;
-// their count is that of place kCellLight + 1.
+// Share of the light's form factor that is seen; 1 where none of it is over the horizon. After addCellCorner for each corner,
+// whose count is that of place kCellLight + 1.
 float cellVisibility(FieldsBlock fields, vec3 p, mat3 frame, vec4 plane, uint count)
 {
     cut(kCellLight + 1, crossingOf(kCellLight + 1, vec3(0.0, 0.0, 1.0)), kCellLight, kCell, false, true);

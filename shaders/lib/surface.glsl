@@ -59,10 +59,10 @@ float sameFacing(PixelPlane plane, vec3 normalThere)
     return c * c;
 }
 
-// 1 for a neighbour of the plane's own surface, towards 0 for another's; `offset` in pixels.
+// 1 for a neighbour of the plane's own surface, towards 0 for another's, 0 for none, whose depth is 0; `offset` in pixels.
 float likeness(PixelPlane plane, vec2 offset, float depthViewThere, vec3 normalThere)
 {
-    return samePlane(plane, offset, depthViewThere) * sameFacing(plane, normalThere);
+    return depthViewThere > 0.0 ? samePlane(plane, offset, depthViewThere) * sameFacing(plane, normalThere) : 0.0;
 }
 
 #endif

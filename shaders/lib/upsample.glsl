@@ -69,7 +69,7 @@ struct Upsampling
 
 void take(inout Upsampling u, PixelPlane plane, vec2 offset, Found found, float near)
 {
-    float like = found.depthView > 0.0 ? likeness(plane, offset, found.depthView, found.normal) : 0.0, weight = like * near;
+    float like = likeness(plane, offset, found.depthView, found.normal), weight = like * near;
     u.sum.occluded += weight * found.occluded;
     u.sum.diffuse += weight * found.diffuse;
     u.sum.specular += weight * found.specular;

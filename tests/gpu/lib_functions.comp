@@ -13,6 +13,7 @@
 #include "lib/float21.glsl"
 #include "lib/tone.glsl"
 #include "lib/spread.glsl"
+#include "lib/whole.glsl"
 #define POLYGON_PLACES 3
 #define POLYGON_CORNERS 40
 #include "lib/cone_polygon.glsl"
@@ -72,6 +73,12 @@ Out evaluate(In x)
 struct In { uint row; uint rows; };
 struct Out { uint row; };
 Out evaluate(In x) { return Out(spreadRow(x.row, x.rows)); }
+
+#elif defined(WHOLE_OF)
+
+struct In { vec3 value; };
+struct Out { ivec3 whole; };
+Out evaluate(In x) { return Out(wholeOf(x.value)); }
 
 #elif defined(OCTAHEDRAL)
 

@@ -1,4 +1,4 @@
-// shaders/lib/surface.glsl, compose.glsl, tone.glsl and float21.glsl on the device: what must hold of every pixel.
+// shaders/lib/surface.glsl, compose.glsl, tone.glsl, float21.glsl and whole.glsl on the device: what must hold of every pixel.
 #include "gpu/device_fixture.h"
 #include "gpu/kernel.h"
 #include "gpu/random_inputs.h"
@@ -125,6 +125,19 @@ TEST_F(LibPicture, Floats21KeepTwelveBits)
     for (size_t i = 0; i < inputs.size(); ++i)
         for (int c = 0; c < 3; ++c)
             ASSERT_LE(std::abs(outputs[i][c] - inputs[i][c]), 1.3e-4f * std::abs(inputs[i][c])) << i << ' ' << c;
+}
+
+TEST_F(LibPicture, WholePartsAreRoundedDown)
+{
+    RandomInputs random(18);
+    constexpr float kEnd = 4194304; // 2^22
+    std::vector<vec3> inputs{{0, -0.0f, 1}, {0.99999994f, 1e-38f, -1e-38f}, {-kEnd, kEnd - 0.5f, kEnd - 1}, {-0.5f, -1, -1.5f}};
+    while (inputs.size() < kCount)
+        inputs.emplace_back(random.direction() * random.logUniform(1e-3, 4e6));
+    const std::vector<ivec3> outputs = runKernel<ivec3>(device(), kKernel, "WHOLE_OF", inputs);
+    for (size_t i = 0; i < inputs.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_EQ(outputs[i][c], static_cast<int>(std::floor(inputs[i][c]))) << inputs[i][c];
 }
 
 } // namespace
