@@ -23,18 +23,6 @@ protected:
     }
 };
 
-/// Where the surface faces up at this height.
-std::vector<size_t> pixelsAtHeight(Shown& shown, float height)
-{
-    const scene::ImageF depth = shown.capture(Aov::Depth);
-    std::vector<size_t> pixels = surfaceOf(depth);
-    std::erase_if(pixels, [&](size_t pixel) {
-        const uvec2 place{pixel % Shown::kExtent.x, pixel / Shown::kExtent.x};
-        return std::abs(positionAt(shown.view().camera, Shown::kExtent, place, depth.values[pixel]).y - height) > 1e-3f;
-    });
-    return pixels;
-}
-
 TEST_P(AreaUpsampling, MixesNothingAcrossADepthEdge)
 {
     scene::SceneFile scene = darkScene(); // a block whose top is bright before a floor that it shades

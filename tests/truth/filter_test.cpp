@@ -28,19 +28,6 @@ protected:
     }
 };
 
-/// Where a horizontal surface of this height is seen.
-std::vector<size_t> pixelsAtHeight(Shown& shown, float height)
-{
-    const scene::ImageF depth = shown.capture(Aov::Depth);
-    std::vector<size_t> pixels = surfaceOf(depth);
-    std::erase_if(pixels, [&](size_t pixel) {
-        const vec3 position =
-            positionAt(shown.view().camera, Shown::kExtent, {pixel % Shown::kExtent.x, pixel / Shown::kExtent.x}, depth.values[pixel]);
-        return std::abs(position.y - height) > 1e-3f;
-    });
-    return pixels;
-}
-
 TEST_P(FilterTest, KeepsAConstant)
 {
     // Under a moving dome, whose inside is not drawn, every ray of the floor is stopped; the sky beside it has no occlusion to give.

@@ -89,6 +89,18 @@ std::vector<size_t> surfaceOf(const scene::ImageF& depth)
     return pixels;
 }
 
+std::vector<size_t> pixelsAtHeight(Shown& shown, float height)
+{
+    const scene::ImageF depth = shown.capture(render::Aov::Depth);
+    std::vector<size_t> pixels = surfaceOf(depth);
+    std::erase_if(pixels, [&](size_t pixel) {
+        const vec3 position =
+            positionAt(shown.view().camera, Shown::kExtent, {pixel % Shown::kExtent.x, pixel / Shown::kExtent.x}, depth.values[pixel]);
+        return std::abs(position.y - height) > 1e-3f;
+    });
+    return pixels;
+}
+
 vec3 pixelOf(const scene::ImageF& image, size_t pixel)
 {
     const float* rgb = &image.values[3 * pixel];

@@ -83,6 +83,8 @@ uint64_t settledBytes(gpu::Device& device);
 
 /// The pixels that show a surface.
 std::vector<size_t> surfaceOf(const scene::ImageF& depth);
+/// Those that show a point of this height, metres.
+std::vector<size_t> pixelsAtHeight(Shown& shown, float height);
 vec3 pixelOf(const scene::ImageF& image, size_t pixel);
 double meanOf(const scene::ImageF& image, const std::vector<size_t>& pixels);
 /// Between two pictures, over all channels.

@@ -3,9 +3,7 @@
 #include "bake/bake_file.h"
 #include "bake/settings.h"
 #include "base/error.h"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include "tools/command_line.h"
 
 #include <algorithm>
 
@@ -52,14 +50,8 @@ std::optional<Options> parse(int argc, char** argv)
     arguments.add_flag("--resume", options.isResumed, "go on from what an interrupted bake has kept");
     arguments.footer(describeKnobs() + "Ctrl-C keeps what is done. mpirun -n N bake ... bakes in N processes.\n"
                                        "Exit codes: 0 done, 1 interrupted, 2 bad input or usage.");
-    try {
-        arguments.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", arguments.help());
+    if (!tools::parse(arguments, argc, argv))
         return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw Error(error.what(), "bake");
-    }
     std::ranges::transform(settings, std::back_inserter(options.settings), splitAtEquals);
     if (mebibytes != 0)
         options.mostBytes = mebibytes << 20;

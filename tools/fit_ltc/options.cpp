@@ -1,9 +1,7 @@
 #include "tools/fit_ltc/options.h"
 
 #include "base/error.h"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include "tools/command_line.h"
 
 namespace antumbra::fit {
 
@@ -19,14 +17,8 @@ std::optional<Options> parse(int argc, char** argv)
     arguments.add_flag("--check", options.isCheck, "fit nothing: report the tables that are there");
     arguments.footer("Ctrl-C ends it, and leaves what was there as it was.\n"
                      "Exit codes: 0 done, 1 interrupted, out of bounds or worse than what it is compared with, 2 bad input or usage.");
-    try {
-        arguments.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", arguments.help());
+    if (!tools::parse(arguments, argc, argv))
         return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw Error(error.what(), "fit_ltc");
-    }
     if (options.isCheck && size->count() > 0)
         throw Error("the size is the tables' own where nothing is fitted", "--size");
     return options;

@@ -1,11 +1,9 @@
 // lab SWEEP.json --output DIR [--resume]: the command line of the lab (DESIGN.md, Commands).
 #include "base/error.h"
 #include "base/log.h"
+#include "tools/command_line.h"
 #include "tools/lab/bake_lab.h"
 #include "tools/lab/lab.h"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <optional>
 
@@ -28,14 +26,8 @@ std::optional<Options> parse(int argc, char** argv)
     arguments.add_option("SWEEP", options.sweep, "file that lists the points, as in tools/sweeps")->required();
     arguments.add_option("--output", options.output, "folder for the results, NAME.json and NAME.csv")->required();
     arguments.add_flag("--resume", options.resumes, "go on from the results that are there");
-    try {
-        arguments.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", arguments.help());
+    if (!tools::parse(arguments, argc, argv))
         return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw Error(error.what(), "lab");
-    }
     return options;
 }
 
