@@ -71,9 +71,10 @@ int takePlace()
 
 void givePlace(int place) { freePlaces[kPlaceWords == 1 ? 0 : place / 32] |= 1u << uint(place % 32); }
 
+const int kNowhere = -1; // no place
+
 // The place of the polygon's part that the occluder hides, which is `place` itself where all is hidden; kNowhere: none is. Not `fits`: the
 // part needs more corners than there are.
-const int kNowhere = -1;
 int findHidden(int place, int occluder, out bool fits)
 {
     int from = place, next = takePlace(), other = takePlace(), end = occluderEnd[occluder];

@@ -4,14 +4,14 @@
 #define LIB_SPREAD_GLSL
 
 // A permutation of the rows in which any run is spread over all of them: by steps of the golden section, as near as shares no divisor. In
-// floats, which are exact here, as CPU devices divide integers a lane at a time.
+// floats, exact for fewer than 2^22 rows, as CPU devices divide integers a lane at a time.
 uint spreadRow(uint row, uint rows)
 {
     float stride = max(floor(0.618034 * float(rows)), 1.0);
     for (float divisor = 0.0; divisor != 1.0; ++stride) {
         float a = float(rows), b = stride;
         while (b != 0.0) {
-            float rest = abs(a - b * floor(a / b)); // of a quotient that a device rounded up too
+            float rest = abs(a - b * floor(a / b)); // a device may have rounded the quotient up: what is short divides alike
             a = b;
             b = rest;
         }
