@@ -77,7 +77,7 @@ bool isFallback = false;
 
 bool isHidden(AreaBlock area, LitSurface s, LightSample point)
 {
-    bool isHidden = distanceToBlocker(pc.scene, s.position, point.direction, point.before, true) >= 0.0;
+    bool isHidden = distanceToBlocker(pc.scene, kMaskAll, s.position, point.direction, point.before, true) >= 0.0;
 #ifdef FIELDS
     isHidden = isHidden || distanceToField(Fields(area.fields).block, s.position, point.direction, point.before) >= 0.0;
 #endif

@@ -1,7 +1,7 @@
 // Environment light that moving objects and distance fields hide, by conical ray culling (Xu et al. 2022, eq. 3-5; methods/conical-culling.md).
 // Variants: CULLING is kCullNone, kCullDirection, kCullLength or kCullBones; REFERENCE jitters the points anew each frame; COMPUTE_BVH
-// traces without ray queries; LOCAL_LIGHT hides what comes in by the irradiance volume instead of the environment; FIELDS: distance fields
-// hide light as what moves does, the spheres about their groups of steps for bounds.
+// traces without ray queries; LOCAL_LIGHT hides what comes in by the irradiance volume instead of the environment, and what shadowed ground
+// would send up; FIELDS: distance fields hide light as what moves does, the spheres about their groups of steps for bounds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindless.glsl"
@@ -26,6 +26,9 @@
 #include "lib/field_ray.glsl"
 #endif
 #include "lib/hidden_light.glsl"
+#ifdef LOCAL_LIGHT
+#include "lib/ground.glsl"
+#endif
 
 layout(buffer_reference, scalar) readonly buffer Samples { vec3 direction[]; };
 layout(buffer_reference, scalar) readonly buffer Blockers { BlockerBlock block[]; };
@@ -214,6 +217,16 @@ void traceSurvivors(Receiver r, bool isSurface)
 
 #endif
 
+// Irradiance that the pixel lacks, W/m^2: hidden from it, or not sent up by ground that is hidden from others.
+vec3 lacking(Receiver r)
+{
+    vec3 irradiance = hiddenIrradiance(frameBlock, r.origin, pc.sampleCount);
+#ifdef LOCAL_LIGHT
+    irradiance += missedFromGround(pc.grounds, pc.groundCount, r.origin, r.normal);
+#endif
+    return irradiance;
+}
+
 void count()
 {
     uint considered = subgroupAdd(raysConsidered), traced = subgroupAdd(raysTraced), cones = subgroupAdd(coneCount);
@@ -270,11 +283,11 @@ void main()
 #endif
 #ifdef REFERENCE
     if (isInside)
-        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(hiddenIrradiance(frameBlock, r.origin, pc.sampleCount), 0.0));
+        imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(lacking(r), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
     vec3 unshadowed = texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb;
-    vec3 share = isSurface ? shareOf(hiddenIrradiance(frameBlock, r.origin, pc.sampleCount), unshadowed) : vec3(0.0);
+    vec3 share = isSurface ? shareOf(lacking(r), unshadowed) : vec3(0.0);
     TracedPixel traced = TracedPixel(share, coneCount, blockerDistance, depthView, octahedralFromUnit(r.normal));
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));

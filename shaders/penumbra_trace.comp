@@ -30,7 +30,7 @@ ShadowRay shadowRay(BodyArrays arrays, BodyBlock body, LitSurface s)
     vec3 direction = toCentre / max(away, 1.0e-10);
     if (dot(direction, s.normal) <= 0.0)
         return ShadowRay(kFacesAway, 0.0);
-    float blocker = distanceToBlocker(pc.scene, s.position, direction, away * 0.9999, false);
+    float blocker = distanceToBlocker(pc.scene, kMaskAll, s.position, direction, away * 0.9999, false);
     float radius = apparentRadius(arrays, body, s.position, direction);
     return blocker < 0.0 ? ShadowRay(kLit, 0.0) : ShadowRay(halfPenumbra(radius, away, blocker), blocker);
 }

@@ -38,7 +38,7 @@ RatioSample sampled(BodyArrays arrays, BodyBlock body, LitSurface s, vec2 shift)
         vec2 light = vec2(point.diffuse, dot(point.specular, vec3(1.0 / 3.0)));
         float blocker = -1.0;
         if (point.diffuse > 0.0)
-            blocker = distanceToBlocker(pc.scene, s.position, point.direction, point.before, true);
+            blocker = distanceToBlocker(pc.scene, kMaskAll, s.position, point.direction, point.before, true);
         sum.whole += light;
         sum.seen += blocker < 0.0 ? light : vec2(0.0);
         if (blocker >= 0.0)

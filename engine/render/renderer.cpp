@@ -109,7 +109,7 @@ std::optional<Aov> aovOf(std::string_view name)
 }
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uvec2 extent)
-    : device_(&device), scene_(device, assets), blocks_(device, assets), prt_(device), gbuffer_(device), posing_(device),
+    : device_(&device), scene_(device, assets), blocks_(device, assets), prt_(device), gbuffer_(device), posing_(device), ground_(device),
       occlusion_(device), areaLights_(device, assets), reference_(device), composite_(device), overlay_(device), counters_(device),
       executor_(device), picture_(makePicture(device, extent))
 {
@@ -156,8 +156,9 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     hasLateFields_ = fields.isLate;
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, fields, baked, posed, extent(),
                                        {.all = captures_ != 0, .steps = isCaptured(Aov::Steps)});
-    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, fields, baked, g, posed, counters);
-    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, fields, baked, g, posed);
+    const Grounds grounds = ground_.declare(graph_, view, frame, scene_, baked, posed);
+    const Traced traced = occlusion_.declare(graph_, view, frame, scene_, fields, baked, grounds, g, posed, counters);
+    const ImageRef reference = reference_.declare(graph_, view, frame, scene_, fields, baked, grounds, g, posed);
     const AreaLit lit = areaLights_.declare(graph_, view, frame, scene_, fields, g, posed, counters);
     const ImageRef blank =
         graph_.import("picture", {.format = gpu::Format::Rgba8Unorm, .extent = extent()}, graph::importedImage(picture_), {});

@@ -9,6 +9,7 @@
 #include "render/overlay.h"
 #include "render/posing.h"
 #include "render/shadow/area_light.h"
+#include "render/shadow/ground.h"
 #include "render/shadow/occlusion.h"
 #include "render/shadow/prt.h"
 #include "render/shadow/reference.h"
@@ -90,6 +91,7 @@ private:
     PrtSystem prt_;
     GBufferSystem gbuffer_;
     PosingSystem posing_;
+    GroundSystem ground_;
     OcclusionSystem occlusion_;
     AreaLightSystem areaLights_;
     ReferenceSystem reference_;

@@ -118,10 +118,10 @@ BvhHit hitInScene(BvhScene scene, uint mask, bool anyWillDo, vec3 origin, vec3 d
     return hit;
 }
 
-// How far off something is that is hit before `far`: the nearest, or any where any will do. Negative where there is nothing.
-float distanceToBlocker(uint64_t scene, vec3 origin, vec3 direction, float far, bool anyWillDo)
+// How far off something among `mask` is that is hit before `far`: the nearest, or any where any will do. Negative where there is nothing.
+float distanceToBlocker(uint64_t scene, uint mask, vec3 origin, vec3 direction, float far, bool anyWillDo)
 {
-    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, anyWillDo, origin, direction, far);
+    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, mask, anyWillDo, origin, direction, far);
     return hit.mask != 0u ? hit.at : -1.0;
 }
 
@@ -143,7 +143,7 @@ float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far, fl
 float dynamicHitFirstOfAll(uint64_t scene, vec3 origin, vec3 direction, float known)
 {
     float far = known >= 0.0 ? known : kRayFar;
-    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, kMaskStatic | kMaskDynamic, false, origin, direction, far);
+    BvhHit hit = hitInScene(BvhSceneAt(scene).scene, kMaskAll, false, origin, direction, far);
     return hit.mask == kMaskStatic ? -1.0 : hit.mask == kMaskDynamic ? hit.at : known;
 }
 

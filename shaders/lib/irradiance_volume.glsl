@@ -72,6 +72,17 @@ void localRadiance(BakedLight baked, vec3 positionWorld, out vec3 radiance[kLoca
         radiance[i] = whole * sum.radiance[i] + beyond * baked.outside[i];
 }
 
+// The irradiance of level surfaces there, of one that faces up and of one that faces down, W/m^2.
+void irradianceAboveAndBelow(BakedLight baked, vec3 positionWorld, out vec3 above, out vec3 below)
+{
+    vec3 radiance[kLocalShCoefficients], three[9];
+    localRadiance(baked, positionWorld, radiance);
+    for (uint i = 0u; i < 9u; ++i)
+        three[i] = radiance[i];
+    above = irradianceOfSh3(three, vec3(0.0, 1.0, 0.0));
+    below = irradianceOfSh3(three, vec3(0.0, -1.0, 0.0));
+}
+
 // The irradiance of a surface there that faces `normal`, W/m^2: of three bands, in the middle of a quad's fragments, by all four: each adds
 // two cells. What comes in changes little from pixel to pixel, and look-ups cost CPU devices most.
 vec3 localIrradianceOfQuad(BakedLight baked, vec3 positionWorld, vec3 normal, bool isHelper)

@@ -19,11 +19,11 @@ float closestHit(uint64_t scene, uint mask, uint flags, vec3 origin, vec3 direct
     return rayQueryGetIntersectionTEXT(query, true);
 }
 
-// How far off something is that is hit before `far`: the nearest, or any where any will do. Negative where there is nothing.
-float distanceToBlocker(uint64_t scene, vec3 origin, vec3 direction, float far, bool anyWillDo)
+// How far off something among `mask` is that is hit before `far`: the nearest, or any where any will do. Negative where there is nothing.
+float distanceToBlocker(uint64_t scene, uint mask, vec3 origin, vec3 direction, float far, bool anyWillDo)
 {
     uint flags = anyWillDo ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
-    return closestHit(scene, kMaskStatic | kMaskDynamic, flags, origin, direction, far);
+    return closestHit(scene, mask, flags, origin, direction, far);
 }
 
 // How far off a dynamic surface is that the ray hits, if the first it hits is one; negative if not. One that is no triangle may be `known` to
@@ -52,7 +52,7 @@ float dynamicHitFirst(uint64_t scene, vec3 origin, vec3 direction, float far, fl
 float dynamicHitFirstOfAll(uint64_t scene, vec3 origin, vec3 direction, float known)
 {
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, accelerationStructureEXT(scene), gl_RayFlagsOpaqueEXT, kMaskStatic | kMaskDynamic, origin, 0.0, direction,
+    rayQueryInitializeEXT(query, accelerationStructureEXT(scene), gl_RayFlagsOpaqueEXT, kMaskAll, origin, 0.0, direction,
                           known >= 0.0 ? known : kRayFar);
     while (rayQueryProceedEXT(query)) {
     }

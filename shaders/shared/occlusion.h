@@ -9,6 +9,7 @@ const uint kCullBones = 3u;
 
 const uint kMaskStatic = 1u;
 const uint kMaskDynamic = 2u;
+const uint kMaskAll = 3u;
 
 // Pixels that trace their rays together.
 const uint kTraceGroupWidth = 16u;
@@ -42,6 +43,27 @@ struct BlockerDispatch
     uint64_t capsules; // CapsuleBlock[], written
 };
 
+const uint kGroundRings = 3u;
+const uint kGroundRingPoints = 32u; // of a character's ground, where the shadow is found
+
+// The level ground below a character, and what it does not send up because the character shadows it.
+struct GroundBlock
+{
+    vec3 centre; // world
+    float radius; // of the character's sphere
+    float height; // of the sphere's centre above the ground
+    vec3 missed[kGroundRings]; // from the feet outwards, each ring three times as wide as the one in it; W/(m^2 sr)
+};
+
+struct GroundDispatch
+{
+    uint64_t scene; // top-level acceleration structure, or BvhScene
+    uint64_t blockers; // BlockerBlock[]
+    uint64_t grounds; // GroundBlock[], written
+    uint frame; // slot of a FrameBlock
+    uint padding;
+};
+
 struct OcclusionTrace
 {
     uint64_t scene; // top-level acceleration structure, or BvhScene
@@ -50,6 +72,7 @@ struct OcclusionTrace
     uint64_t blockers; // BlockerBlock[blockerCount]
     uint64_t capsules; // CapsuleBlock[]
     uint64_t fields; // FieldsBlock, where there are any
+    uint64_t grounds; // GroundBlock[groundCount], in the light of the irradiance volume alone
     uint frame; // slots: FrameBlock,
     uint depth;
     uint normals;
@@ -58,6 +81,7 @@ struct OcclusionTrace
     uint isFiltered; // distances to what hides light are asked for
     uint sampleCount;
     uint blockerCount;
+    uint groundCount;
     float tolerance; // share of the unshadowed irradiance a cone may at most hide to be left out
     float pixelScale; // of the occlusion image to the G-buffer: 1, 2, 4
     uint frameIndex; // of the reference's accumulation

@@ -8,6 +8,7 @@
 #include "lib/hemisphere.glsl"
 #include "lib/sh.glsl"
 #include "lib/cone.glsl"
+#include "lib/disc.glsl"
 #include "lib/intersect.glsl"
 #include "lib/compose.glsl"
 #include "lib/float21.glsl"
@@ -66,6 +67,16 @@ Out evaluate(In x)
     CapsuleBound capsule = boundOfCapsule(0.5 * ((x.a - x.p) + (x.b - x.p)), arm, x.radius, x.radius + 1.0005 * length(arm) + 1.0e-6); // reach as bone_fit.comp gives it
     return Out(described(sphere, x.direction), uint(mayMeet(capsule, x.direction)), uint(isBehind(x.p, x.n, x.a, x.radius)),
                uint(hitsSphere(x.p, x.direction, x.a, x.radius)), greatestShare(sphere, x.n));
+}
+
+#elif defined(DISC)
+
+struct In { vec3 toCentre; float radius; vec3 normal; };
+struct Out { vec3 vector; float cut; };
+Out evaluate(In x)
+{
+    vec3 vector = discVector(x.toCentre, x.radius);
+    return Out(vector, cutFormFactor(vector, x.normal));
 }
 
 #elif defined(SPREAD_ROW)

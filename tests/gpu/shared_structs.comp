@@ -154,6 +154,7 @@ void echo(OcclusionTrace b)
     put(b.blockers);
     put(b.capsules);
     put(b.fields);
+    put(b.grounds);
     put(b.frame);
     put(b.depth);
     put(b.normals);
@@ -162,9 +163,22 @@ void echo(OcclusionTrace b)
     put(b.isFiltered);
     put(b.sampleCount);
     put(b.blockerCount);
+    put(b.groundCount);
     put(b.tolerance);
     put(b.pixelScale);
     put(b.frameIndex);
+}
+
+#elif defined(GROUND_BLOCK)
+
+#define Block GroundBlock
+void echo(GroundBlock b)
+{
+    put(b.centre);
+    put(b.radius);
+    put(b.height);
+    for (uint i = 0u; i < kGroundRings; ++i)
+        put(b.missed[i]);
 }
 
 #elif defined(BVH_NODE)

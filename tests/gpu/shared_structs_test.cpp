@@ -74,11 +74,17 @@ TEST_F(SharedStructs, BlockerSource)
     });
 }
 
+TEST_F(SharedStructs, GroundBlock)
+{
+    expectSameLayout<shader::GroundBlock>("GROUND_BLOCK", [](const auto& b) { return wordsOf(b.centre, b.radius, b.height, b.missed); });
+}
+
 TEST_F(SharedStructs, OcclusionTrace)
 {
     expectSameLayout<shader::OcclusionTrace>("OCCLUSION_TRACE", [](const auto& b) {
-        return wordsOf(b.scene, b.samples, b.counters, b.blockers, b.capsules, b.fields, b.frame, b.depth, b.normals, b.unshadowed,
-                       b.occluded, b.isFiltered, b.sampleCount, b.blockerCount, b.tolerance, b.pixelScale, b.frameIndex);
+        return wordsOf(b.scene, b.samples, b.counters, b.blockers, b.capsules, b.fields, b.grounds, b.frame, b.depth, b.normals,
+                       b.unshadowed, b.occluded, b.isFiltered, b.sampleCount, b.blockerCount, b.groundCount, b.tolerance, b.pixelScale,
+                       b.frameIndex);
     });
 }
 

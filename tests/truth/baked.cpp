@@ -48,15 +48,16 @@ scene::SceneFile bakedGround()
     scene.camera.target = {0, 0.6f, 0};
     scene.environment =
         scene::SceneEnvironment{.file = projectPath("assets") / "environments/low_sun.hdr", .rotationRadians = 2, .intensity = 1.3f};
-    scene.entities = {staticShape(MeshKind::Plane, {0, 0, 0}, {kGroundMetres, 1, kGroundMetres}), walker({-0.5f, 0, 0.2f}, "walk"),
-                      movingShape(MeshKind::Sphere, {0.6f, 0.6f, 0}, vec3(0.8f))};
+    scene.entities = {ground(), walker({-0.5f, 0, 0.2f}, "walk"), movingShape(MeshKind::Sphere, {0.6f, 0.6f, 0}, vec3(0.8f))};
     return scene;
 }
 
 } // namespace
 
-ShownGround::ShownGround(gpu::Device& device, const bake::Bake* bake)
-    : Shown(device, bakedGround(), Shown::kExtent, 0.3f, chart), bake_(bake)
+ShownGround::ShownGround(gpu::Device& device, const bake::Bake* bake) : ShownGround(device, bake, bakedGround()) {}
+
+ShownGround::ShownGround(gpu::Device& device, const bake::Bake* bake, const scene::SceneFile& scene)
+    : Shown(device, scene, Shown::kExtent, 0.3f, chart), bake_(bake)
 {
     view().bake = bake;
 }
@@ -66,6 +67,8 @@ void ShownGround::advance(float seconds)
     Shown::advance(seconds);
     view().bake = bake_;
 }
+
+scene::SceneEntity ground() { return staticShape(MeshKind::Plane, {0, 0, 0}, {kGroundMetres, 1, kGroundMetres}); }
 
 vec2 groundUv(vec3 position) { return onPage(vec2(position.x, position.z) / kGroundMetres); }
 

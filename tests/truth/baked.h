@@ -16,12 +16,15 @@ class ShownGround : public Shown
 public:
     /// `bake` must outlive it; null: nothing is baked.
     ShownGround(gpu::Device& device, const bake::Bake* bake);
+    /// With a ground as above, under whatever else.
+    ShownGround(gpu::Device& device, const bake::Bake* bake, const scene::SceneFile& scene);
 
     void advance(float seconds);
 
 private:
     const bake::Bake* bake_;
 };
+scene::SceneEntity ground();
 vec2 groundUv(vec3 position);
 
 /// The same transfer at every texel and cell, by coefficient and by row and column.

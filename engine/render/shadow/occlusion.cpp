@@ -41,8 +41,8 @@ void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
 }
 
 graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                              const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed,
-                                              graph::BufferRef& counters)
+                                              const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g,
+                                              const Posed& posed, graph::BufferRef& counters)
 {
     const OcclusionKnobs& knobs = view.knobs.occlusion;
     const auto pixelScale = static_cast<float>(knobs.scale);
@@ -55,12 +55,14 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
         pass.read(posed.bounds, Use::StorageRead);
     if (baked)
         pass.read(baked.cells, Use::StorageRead);
+    if (grounds)
+        pass.read(grounds.blocks, Use::StorageRead);
     counters = pass.write(counters, Use::StorageWrite);
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
     const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling, static_cast<bool>(baked), static_cast<bool>(fields));
-    pass.record([this, &view, &scene, &pipeline, frame, fields = fields.address, g, traced, pixelScale,
+    pass.record([this, &view, &scene, &pipeline, frame, fields = fields.address, grounds, g, traced, pixelScale,
                  counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,
                           shader::OcclusionTrace{.scene = scene.tracedAddress(),
@@ -69,6 +71,7 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
                                                  .blockers = scene.blockers().address(),
                                                  .capsules = scene.capsules().address(),
                                                  .fields = fields,
+                                                 .grounds = grounds ? recorder.address(grounds.blocks) : 0,
                                                  .frame = frame,
                                                  .depth = recorder.sampled(g.depth),
                                                  .normals = recorder.sampled(g.normals),
@@ -77,6 +80,7 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
                                                  .isFiltered = view.knobs.occlusion.filter > 0 ? 1u : 0u,
                                                  .sampleCount = view.knobs.occlusion.samples,
                                                  .blockerCount = static_cast<uint32_t>(view.characters.size()),
+                                                 .groundCount = grounds.count,
                                                  .tolerance = view.knobs.occlusion.tolerance,
                                                  .pixelScale = pixelScale,
                                                  .frameIndex = 0},
@@ -110,7 +114,7 @@ graph::ImageRef OcclusionSystem::declareFilter(graph::FrameGraph& graph, const F
 }
 
 Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed,
+                                const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g, const Posed& posed,
                                 graph::BufferRef& counters)
 {
     if (!view.hidesEnvironment()) {
@@ -121,7 +125,7 @@ Traced OcclusionSystem::declare(graph::FrameGraph& graph, const FrameView& view,
     if (view.knobs.occlusion.backend == RayBackend::RayQuery && scene.backend() != RayBackend::RayQuery)
         graph.skip("occlusion trace, ray-query", "the device has no ray queries: compute-bvh traces instead");
     prepare(view.knobs.occlusion);
-    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, fields, baked, g, posed, counters);
+    const graph::ImageRef traced = declareTrace(graph, view, frame, scene, fields, baked, grounds, g, posed, counters);
     return {declareFilter(graph, view, frame, g, traced), static_cast<uint32_t>(view.knobs.occlusion.scale)};
 }
 

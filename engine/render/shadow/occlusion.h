@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/gbuffer.h"
+#include "render/shadow/ground.h"
 
 #include <array>
 
@@ -22,13 +23,13 @@ public:
     explicit OcclusionSystem(gpu::Device& device) : device_(&device) {}
 
     Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const FieldFrame& fields,
-                   const Baked& baked, const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
+                   const Baked& baked, const Grounds& grounds, const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
 
 private:
     [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling, bool isLocal, bool hasFields);
     void prepare(const OcclusionKnobs& knobs);
     graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                 const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed,
+                                 const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g, const Posed& posed,
                                  graph::BufferRef& counters);
     graph::ImageRef declareFilter(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GBuffer& g,
                                   graph::ImageRef traced);

@@ -37,7 +37,8 @@ const gpu::Pipeline& ReferenceSystem::tracePipeline(RayBackend backend, bool isL
 }
 
 graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                                         const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed)
+                                         const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g,
+                                         const Posed& posed)
 {
     const uint32_t wanted = wantedSamples(view.knobs);
     if (wanted == 0 || !view.hidesEnvironment()) {
@@ -68,18 +69,22 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         pass.read(posed.scene, posed.sceneUse);
         if (baked)
             pass.read(baked.cells, Use::StorageRead);
+        if (grounds)
+            pass.read(grounds.blocks, Use::StorageRead);
         traced = pass.create("reference, traced", {.format = kMeanFormat, .like = g.depth}, Use::StorageWrite);
         const graph::BufferRef own = pass.createBuffer("reference counters", sizeof(shader::CounterBlock), Use::StorageWrite);
-        pass.record([&trace, &scene, frame, fields = fields.address, g, traced, own, summed = frames_](graph::Recorder& recorder) {
+        pass.record([&trace, &scene, frame, fields = fields.address, grounds, g, traced, own, summed = frames_](graph::Recorder& recorder) {
             recorder.dispatch(trace,
                               shader::OcclusionTrace{.scene = scene.tracedAddress(),
                                                      .counters = recorder.address(own),
                                                      .fields = fields,
+                                                     .grounds = grounds ? recorder.address(grounds.blocks) : 0,
                                                      .frame = frame,
                                                      .depth = recorder.sampled(g.depth),
                                                      .normals = recorder.sampled(g.normals),
                                                      .occluded = recorder.storage(traced),
                                                      .sampleCount = kSamplesAFrame,
+                                                     .groundCount = grounds.count,
                                                      .pixelScale = 1.0f,
                                                      .frameIndex = summed},
                               recorder.extent(traced), {shader::kTraceGroupWidth, shader::kTraceGroupHeight});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gbuffer.h"
+#include "render/shadow/ground.h"
 
 #include <array>
 #include <optional>
@@ -15,7 +16,7 @@ public:
 
     /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
     graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
-                            const FieldFrame& fields, const Baked& baked, const GBuffer& g, const Posed& posed);
+                            const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g, const Posed& posed);
     /// Accumulated for the view as it stands; none where nothing is asked for, or nothing can be hidden.
     [[nodiscard]] std::optional<uint32_t> samples() const { return isActive_ ? std::optional(frames_ * samplesAFrame_) : std::nullopt; }
 
