@@ -156,9 +156,11 @@ std::string headOf(const Results& results, const std::vector<std::string>& times
     for (const Figure& figure : kFigures)
         line += fmt::format(",{}", figure.name);
     for (const std::string& name : times)
-        line += fmt::format(",{0} ms lower,{0} ms median,{0} ms upper", name);
+        for (const std::string_view quartile : {"lower", "median", "upper"})
+            line += ',' + quoted(fmt::format("{} ms {}", name, quartile)); // names of passes may hold commas
     for (const std::string& name : counters)
-        line += fmt::format(",{0} lower,{0} median,{0} upper", name);
+        for (const std::string_view quartile : {"lower", "median", "upper"})
+            line += ',' + quoted(fmt::format("{} {}", name, quartile));
     return line + '\n';
 }
 
