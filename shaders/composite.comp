@@ -50,8 +50,9 @@ Found foundAt(ivec2 place)
     TracedPixel traced = unpackTraced(texelFetch(sampledWordImages[pc.traced], place, 0));
     Found found = nothingFound();
     found.depthView = traced.depthView;
-    found.normal = unitFromOctahedral(traced.normal);
-    found.occluded = vec4(traced.occluded, float(traced.cones));
+    found.normal = traced.normal;
+    found.hidden = traced.hidden;
+    found.occluded = vec4(coloured(lackedBy(traced.normal, traced.hidden), traced.tint), float(int(traced.cones)));
 #else
     Found found = surfaceFound(frameBlock, pc.depth, pc.normals, place, pc.pixelScale);
 #endif
@@ -120,7 +121,7 @@ bool composeSurface(PixelBlock block, ivec2 pixel, float depthView, bool asksRin
         return false;
     vec3 albedo = texelFetch(sampledImages[pc.albedo], pixel, 0).rgb;
     vec3 firstTerm = texelFetch(sampledImages[pc.unshadowed], pixel, 0).rgb;
-    vec4 occluded = vec4(firstTerm, 1.0) * found.occluded;
+    vec4 occluded = found.occluded;
 #ifdef EXPLAINS
     vec3 truth = pc.reference != kAbsent ? texelFetch(sampledImages[pc.reference], pixel, 0).rgb : occluded.rgb;
     occluded.rgb = pc.isReferenceShown != 0u ? truth : occluded.rgb;

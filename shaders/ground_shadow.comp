@@ -47,9 +47,9 @@ vec3 missedAt(vec3 point, uint thread)
     mat3 frame = turnedFrame(kUp, kTau * fract(float(thread) * kGoldenRatio));
     beginHidden();
     for (uint i = 0u; i < kRays; ++i) {
-        vec3 direction = frame * cosineHammersley(i, kRays, 0.5);
+        vec3 local = cosineHammersley(i, kRays, 0.5), direction = frame * local;
         if (dynamicHitFirst(pc.scene, origin, direction, kRayFar, -1.0) >= 0.0)
-            addHidden(direction);
+            addHidden(direction, local.z);
     }
     vec3 above, below;
     irradianceAboveAndBelow(frameBlock.baked, point, above, below);

@@ -79,11 +79,11 @@ bool isNegligible(Cone cone, vec3 normal) { return 0.3 * greatestShare(cone, nor
 void traceAll(Receiver r)
 {
     for (uint i = 0u; i < pc.sampleCount; ++i) {
-        vec3 direction = r.frame * localSample(i);
+        vec3 local = localSample(i), direction = r.frame * local;
         float field = fieldAlong(r.origin, direction, kRayFar);
         float hit = dynamicHitFirstOfAll(pc.scene, r.origin, direction, field);
         if (hit >= 0.0) {
-            addHidden(direction);
+            addHidden(direction, local.z);
             // As culled rays find it, so that the filter does the same whatever was culled.
             if (pc.isFiltered != 0u)
                 blockerDistance = min(blockerDistance, dynamicHitFirst(pc.scene, r.origin, direction, kRayFar, field));
@@ -193,8 +193,10 @@ void traceTogether(Receiver r, Survivors survivors, uint base)
         }
     }
     barrier();
-    for (uint word = hits[me]; word != 0u; word &= word - 1u)
-        addHidden(r.frame * localSample(base + uint(findLSB(word))));
+    for (uint word = hits[me]; word != 0u; word &= word - 1u) {
+        vec3 local = localSample(base + uint(findLSB(word)));
+        addHidden(r.frame * local, local.z);
+    }
 }
 
 void traceSurvivors(Receiver r, bool isSurface)
@@ -286,9 +288,9 @@ void main()
         imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(lacking(r), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
-    vec3 unshadowed = texelFetch(sampledImages[pc.unshadowed], ivec2(fullPixel), 0).rgb;
-    vec3 share = isSurface ? shareOf(lacking(r), unshadowed) : vec3(0.0);
-    TracedPixel traced = TracedPixel(share, coneCount, blockerDistance, depthView, octahedralFromUnit(r.normal));
+    vec3 irradiance = isSurface ? max(lacking(r), vec3(0.0)) : vec3(0.0); // less than nothing is ringing
+    vec3 hidden = hiddenVector(irradiance.r + irradiance.g + irradiance.b, hiddenTowards(r.normal), r.normal);
+    TracedPixel traced = TracedPixel(hidden, tintOf(irradiance), coneCount, blockerDistance, depthView, r.normal);
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));
 #endif

@@ -15,15 +15,19 @@ const uint kHidden = 16u;
 const uint kHidden = 9u;
 #endif
 float hidden[kHidden];
+vec3 hiddenSum; // of the directions, as dense as they are and not as the samples
 
 void beginHidden()
 {
+    hiddenSum = vec3(0.0);
     for (uint i = 0u; i < kHidden; ++i)
         hidden[i] = 0.0;
 }
 
-void addHidden(vec3 direction)
+// Samples are as dense as their cosines to the normal.
+void addHidden(vec3 direction, float cosine)
 {
+    hiddenSum += direction / max(cosine, 0.1); // those that graze are few, and would drown the others
     float y[kHidden];
 #ifdef LOCAL_LIGHT
     shBasis4(direction, y);
@@ -54,11 +58,11 @@ vec3 hiddenIrradiance(FrameBlock frame, vec3 position, uint sampleCount)
     return sum * (kPi / float(sampleCount));
 }
 
-// Ringing leaves some surfaces without light to speak of; whatever their share is, composition clamps it.
-vec3 shareOf(vec3 occluded, vec3 unshadowed)
+// Unit, the middle of it; the normal where nothing is hidden.
+vec3 hiddenTowards(vec3 normal)
 {
-    float most = max(unshadowed.r, max(unshadowed.g, unshadowed.b));
-    return clamp(occluded / max(unshadowed, vec3(1.0e-3 * most + 1.0e-6)), vec3(-2.0), vec3(2.0));
+    float length2 = dot(hiddenSum, hiddenSum);
+    return length2 > 0.0 ? hiddenSum * inversesqrt(length2) : normal;
 }
 
 #endif

@@ -50,10 +50,12 @@ float samePlane(PixelPlane plane, vec2 offset, float depthViewThere)
     return 1.0 / (1.0 + off * off * off * off);
 }
 
-// 1 for a neighbour that faces the same way, a half at 23 degrees.
+// 1 for a neighbour that faces the same way, a half at 12 degrees.
 float sameFacing(PixelPlane plane, vec3 normalThere)
 {
     float c = max(dot(plane.normal, normalThere), 0.0);
+    c *= c;
+    c *= c;
     c *= c;
     c *= c;
     return c * c;

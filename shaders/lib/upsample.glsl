@@ -7,17 +7,27 @@
 
 #include "lib/lit_extent.glsl"
 #include "lib/surface.glsl"
+#include "lib/traced.glsl"
 
 struct Found
 {
     float depthView; // of the pixel it was found for, metres; 0: no surface
     vec3 normal; // shading
-    vec4 occluded; // share of the first term; cones in a
+    vec3 hidden; // as of a TracedPixel
+    vec4 occluded; // irradiance that is hidden from the surface, W/m^2; cones in a
     vec3 diffuse; // of area lights, W/m^2
     vec3 specular; // W/(m^2 sr)
 };
 
-Found nothingFound() { return Found(0.0, vec3(0.0), vec4(0.0), vec3(0.0), vec3(0.0)); }
+Found nothingFound() { return Found(0.0, vec3(0.0), vec3(0.0), vec4(0.0), vec3(0.0), vec3(0.0)); }
+
+// For a surface that faces that way.
+Found turned(Found found, vec3 normal)
+{
+    float there = found.occluded.r + found.occluded.g + found.occluded.b;
+    found.occluded.rgb *= lackedBy(normal, found.hidden) / max(there, 1.0e-30);
+    return found;
+}
 
 // The surface in the middle of a square, which nothing is found for yet; `depths` and `normals` are slots of the G-buffer.
 Found surfaceFound(FrameBlock frame, uint depths, uint normals, ivec2 place, int pixelScale)
@@ -70,6 +80,7 @@ struct Upsampling
 void take(inout Upsampling u, PixelPlane plane, vec2 offset, Found found, float near)
 {
     float like = likeness(plane, offset, found.depthView, found.normal), weight = like * near;
+    u.sum.hidden += weight * found.hidden;
     u.sum.occluded += weight * found.occluded;
     u.sum.diffuse += weight * found.diffuse;
     u.sum.specular += weight * found.specular;
@@ -98,12 +109,13 @@ Found upsampled(PixelBlock block, ivec2 pixel, PixelPlane plane, bool asksRing, 
             take(u, plane, origin + scale * vec2(place), foundAt(block.corner + place), kRingWeight);
         }
     if (u.weights <= 1.0e-3)
-        return u.likest;
+        return turned(u.likest, plane.normal);
     float whole = 1.0 / u.weights;
+    u.sum.hidden *= whole;
     u.sum.occluded *= whole;
     u.sum.diffuse *= whole;
     u.sum.specular *= whole;
-    return u.sum;
+    return turned(u.sum, plane.normal);
 }
 
 void finishBlock(PixelBlock block, ivec2 extent)

@@ -76,7 +76,6 @@ struct OcclusionTrace
     uint frame; // slots: FrameBlock,
     uint depth;
     uint normals;
-    uint unshadowed;
     uint occluded; // written: a traced pixel, or by the reference W/m^2
     uint isFiltered; // distances to what hides light are asked for
     uint sampleCount;
@@ -85,6 +84,7 @@ struct OcclusionTrace
     float tolerance; // share of the unshadowed irradiance a cone may at most hide to be left out
     float pixelScale; // of the occlusion image to the G-buffer: 1, 2, 4
     uint frameIndex; // of the reference's accumulation
+    uint padding;
 };
 
 // Images of traced pixels are those of lib/traced.glsl.

@@ -13,6 +13,7 @@
 #include "lib/compose.glsl"
 #include "lib/float21.glsl"
 #include "lib/tone.glsl"
+#include "lib/traced.glsl"
 #include "lib/spread.glsl"
 #include "lib/whole.glsl"
 #define POLYGON_PLACES 3
@@ -77,6 +78,20 @@ Out evaluate(In x)
 {
     vec3 vector = discVector(x.toCentre, x.radius);
     return Out(vector, cutFormFactor(vector, x.normal));
+}
+
+#elif defined(TRACED_PIXEL)
+
+// What surfaces lack, one that faces as it does and another.
+struct In { vec3 irradiance; vec3 towards; vec3 normal; vec3 otherNormal; float depthView; uint cones; };
+struct Out { vec3 own; vec3 other; vec3 normal; float depthView; uint cones; };
+Out evaluate(In x)
+{
+    float sum = x.irradiance.r + x.irradiance.g + x.irradiance.b;
+    TracedPixel t = unpackTraced(packTraced(
+        TracedPixel(hiddenVector(sum, x.towards, x.normal), tintOf(x.irradiance), x.cones, kNoBlocker, x.depthView, x.normal)));
+    return Out(coloured(lackedBy(x.normal, t.hidden), t.tint), coloured(lackedBy(x.otherNormal, t.hidden), t.tint), t.normal, t.depthView,
+               t.cones);
 }
 
 #elif defined(SPREAD_ROW)

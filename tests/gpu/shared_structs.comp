@@ -158,7 +158,6 @@ void echo(OcclusionTrace b)
     put(b.frame);
     put(b.depth);
     put(b.normals);
-    put(b.unshadowed);
     put(b.occluded);
     put(b.isFiltered);
     put(b.sampleCount);
@@ -167,6 +166,7 @@ void echo(OcclusionTrace b)
     put(b.tolerance);
     put(b.pixelScale);
     put(b.frameIndex);
+    put(b.padding);
 }
 
 #elif defined(GROUND_BLOCK)

@@ -82,9 +82,8 @@ TEST_F(SharedStructs, GroundBlock)
 TEST_F(SharedStructs, OcclusionTrace)
 {
     expectSameLayout<shader::OcclusionTrace>("OCCLUSION_TRACE", [](const auto& b) {
-        return wordsOf(b.scene, b.samples, b.counters, b.blockers, b.capsules, b.fields, b.grounds, b.frame, b.depth, b.normals,
-                       b.unshadowed, b.occluded, b.isFiltered, b.sampleCount, b.blockerCount, b.groundCount, b.tolerance, b.pixelScale,
-                       b.frameIndex);
+        return wordsOf(b.scene, b.samples, b.counters, b.blockers, b.capsules, b.fields, b.grounds, b.frame, b.depth, b.normals, b.occluded,
+                       b.isFiltered, b.sampleCount, b.blockerCount, b.groundCount, b.tolerance, b.pixelScale, b.frameIndex, b.padding);
     });
 }
 

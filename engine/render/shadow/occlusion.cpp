@@ -49,7 +49,6 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     graph::Pass pass = graph.add("occlusion trace");
     pass.read(g.depth, Use::Sampled);
     pass.read(g.normals, Use::Sampled);
-    pass.read(g.unshadowed, Use::Sampled);
     pass.read(posed.scene, posed.sceneUse);
     if (posed.bounds)
         pass.read(posed.bounds, Use::StorageRead);
@@ -75,7 +74,6 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
                                                  .frame = frame,
                                                  .depth = recorder.sampled(g.depth),
                                                  .normals = recorder.sampled(g.normals),
-                                                 .unshadowed = recorder.sampled(g.unshadowed),
                                                  .occluded = recorder.storage(traced),
                                                  .isFiltered = view.knobs.occlusion.filter > 0 ? 1u : 0u,
                                                  .sampleCount = view.knobs.occlusion.samples,
@@ -83,7 +81,8 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
                                                  .groundCount = grounds.count,
                                                  .tolerance = view.knobs.occlusion.tolerance,
                                                  .pixelScale = pixelScale,
-                                                 .frameIndex = 0},
+                                                 .frameIndex = 0,
+                                                 .padding = 0},
                           recorder.extent(traced), {shader::kTraceGroupWidth, shader::kTraceGroupHeight});
     });
     return traced;

@@ -10,7 +10,7 @@
 
 namespace antumbra::render {
 
-/// Share of the unshadowed irradiance that is hidden, where it was traced, with the surface it belongs to (lib/traced.glsl).
+/// Irradiance that is hidden, where it was traced, with the surface it belongs to (lib/traced.glsl).
 struct Traced
 {
     graph::ImageRef pixels;  // absent where nothing hides light

@@ -86,7 +86,8 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
                                                      .sampleCount = kSamplesAFrame,
                                                      .groundCount = grounds.count,
                                                      .pixelScale = 1.0f,
-                                                     .frameIndex = summed},
+                                                     .frameIndex = summed,
+                                                     .padding = 0},
                               recorder.extent(traced), {shader::kTraceGroupWidth, shader::kTraceGroupHeight});
         });
     } else {
