@@ -7,7 +7,8 @@
 #include "lib/traced.glsl"
 
 // Cross-bilateral filter of what is hidden alone (Xu et al. 2022, section 4): neighbours on the same surface count, within the penumbra, by
-// what they know of a surface that faces as the pixel's own does. The outermost taps count half, so that a width of 4k + 1 sees each of the 4 x 4 rotations equally often.
+// what they know of a surface that faces as the pixel's own does. The outermost taps count half, so that a width of 4k + 1 sees each of the
+// 4 x 4 rotations equally often.
 // A shadow changes over lengths such as its blocker is away: 1 well within that, a half at half of it.
 float withinPenumbra(vec3 apart, float blockerDistance)
 {

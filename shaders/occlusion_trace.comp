@@ -48,7 +48,7 @@ struct Receiver
 };
 
 float blockerDistance = kNoBlocker;
-uint raysConsidered = 0u, raysTraced = 0u, coneCount = 0u;
+uint raysConsidered = 0u, raysTraced = 0u, coneCount = 0u, ringingPixels = 0u;
 
 // `i` may differ from thread to thread.
 vec3 localSample(uint i)
@@ -229,9 +229,21 @@ vec3 lacking(Receiver r)
     return irradiance;
 }
 
+// The same without what rings, as few bands of harmonics do: nothing lacks less than nothing. More than a thousandth of the sky's light counts
+// as clamped, for all pixels that the traced one stands for.
+vec3 lackingAtLeastNothing(Receiver r)
+{
+    vec3 irradiance = lacking(r), mean = abs(frameBlock.radianceSh[0]) * (0.2820947918 * kPi);
+    ringingPixels = any(lessThan(irradiance, -1.0e-3 * mean)) ? uint(pc.pixelScale * pc.pixelScale) : 0u;
+    return mix(irradiance, vec3(0.0), lessThan(irradiance, vec3(0.0))); // NaN stays what it is, for whoever counts it
+}
+
 void count()
 {
     uint considered = subgroupAdd(raysConsidered), traced = subgroupAdd(raysTraced), cones = subgroupAdd(coneCount);
+    uint ringing = subgroupAdd(ringingPixels);
+    if (subgroupElect() && ringing > 0u)
+        atomicAdd(Counters(pc.counters).block.clampedPixels, ringing);
 #ifdef FIELDS
     uint evaluations = subgroupAdd(fieldEvaluations);
     if (subgroupElect() && evaluations > 0u)
@@ -288,7 +300,7 @@ void main()
         imageStore(storageImages[pc.occluded], ivec2(pixel), vec4(lacking(r), 0.0));
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
-    vec3 irradiance = isSurface ? max(lacking(r), vec3(0.0)) : vec3(0.0); // less than nothing is ringing
+    vec3 irradiance = isSurface ? lackingAtLeastNothing(r) : vec3(0.0);
     vec3 hidden = hiddenVector(irradiance.r + irradiance.g + irradiance.b, hiddenTowards(r.normal), r.normal);
     TracedPixel traced = TracedPixel(hidden, tintOf(irradiance), coneCount, blockerDistance, depthView, r.normal);
     if (isInside)
