@@ -17,6 +17,7 @@
 #include "lib/ground.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Blockers { BlockerBlock block[]; };
+layout(buffer_reference, scalar) writeonly buffer WrittenGrounds { GroundBlock block[]; };
 layout(push_constant, scalar) uniform Push { GroundDispatch pc; };
 
 const uint kPoints = kGroundRings * kGroundRingPoints;
@@ -31,7 +32,7 @@ shared vec3 missed[kPoints];
 // A ring's points are spread evenly over its area.
 vec2 pointOfRing(uint ring, uint i, float sphereRadius, float height)
 {
-    float outer = ringRadius(sphereRadius, height, ring), inner = ring > 0u ? ringRadius(sphereRadius, height, ring - 1u) : 0.0;
+    float outer = innermostRing(sphereRadius, height) * pow(3.0, float(ring)), inner = ring > 0u ? outer / 3.0 : 0.0;
     float radius = sqrt(mix(inner * inner, outer * outer, (float(i) + 0.5) / float(kGroundRingPoints)));
     float turn = kTau * fract(float(i) * kGoldenRatio);
     return radius * vec2(cos(turn), sin(turn));
@@ -79,10 +80,10 @@ void main()
     missed[thread] = isGround ? missedAt(above - below * kUp, thread) : vec3(0.0);
     barrier();
     if (thread < kGroundRings)
-        Grounds(pc.grounds).block[gl_WorkGroupID.x].missed[thread] = meanOfRing(thread);
+        WrittenGrounds(pc.grounds).block[gl_WorkGroupID.x].missed[thread] = meanOfRing(thread);
     if (thread == 0u) {
-        Grounds(pc.grounds).block[gl_WorkGroupID.x].centre = blocker.centre - max(height, 0.0) * kUp;
-        Grounds(pc.grounds).block[gl_WorkGroupID.x].radius = blocker.radius;
-        Grounds(pc.grounds).block[gl_WorkGroupID.x].height = max(height, 0.0);
+        WrittenGrounds(pc.grounds).block[gl_WorkGroupID.x].centre = blocker.centre - max(height, 0.0) * kUp;
+        WrittenGrounds(pc.grounds).block[gl_WorkGroupID.x].radius = blocker.radius;
+        WrittenGrounds(pc.grounds).block[gl_WorkGroupID.x].height = max(height, 0.0);
     }
 }

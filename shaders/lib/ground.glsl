@@ -4,14 +4,10 @@
 
 #include "lib/disc.glsl"
 
-layout(buffer_reference, scalar) buffer Grounds { GroundBlock block[]; };
+layout(buffer_reference, scalar) readonly buffer Grounds { GroundBlock block[]; };
 
-// Of a ring of the ground. The shadow of a ball at height h has fallen to a tenth where the outermost ends.
-float ringRadius(float sphereRadius, float height, uint ring)
-{
-    float outermost = 2.0 * max(sphereRadius, height);
-    return ring == 2u ? outermost : ring == 1u ? outermost / 3.0 : outermost / 9.0;
-}
+// Each ring ends three times as far out as the one in it; where the outermost does, the shadow of a ball at height h has fallen to a tenth.
+float innermostRing(float sphereRadius, float height) { return 2.0 * max(sphereRadius, height) * pow(3.0, 1.0 - float(kGroundRings)); }
 
 // Share of what the ground does not send up that a place misses: beyond the character's sphere other things may stand in between, so that
 // it fades away.
@@ -32,10 +28,12 @@ vec3 missedFromGround(uint64_t grounds, uint count, vec3 position, vec3 normal)
         uint rings = nearness > 0.0 ? kGroundRings : 0u;
         vec3 sum = vec3(0.0);
         float within = 0.0; // form factor of what the ring is about
+        float radius = innermostRing(ground.radius, ground.height);
         for (uint i = 0u; i < rings; ++i) {
-            float disc = cutFormFactor(discVector(ground.centre - position, ringRadius(ground.radius, ground.height, i)), normal);
+            float disc = cutFormFactor(discVector(ground.centre - position, radius), normal);
             sum += (disc - within) * ground.missed[i];
             within = disc;
+            radius *= 3.0;
         }
         missed += 2.0 * kHalfPi * nearness * sum;
     }

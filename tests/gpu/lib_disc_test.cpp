@@ -55,12 +55,18 @@ In randomInput(RandomInputs& random)
     return {vec3(aside - dvec3(0, height, 0)), static_cast<float>(radius), vec3(random.direction())};
 }
 
-TEST_F(LibDisc, VectorsAreTheIntegralOverTheDisc)
+std::vector<In> randomInputs(uint32_t seed, size_t count)
 {
-    RandomInputs random(1);
-    std::vector<In> inputs(300);
+    RandomInputs random(seed);
+    std::vector<In> inputs(count);
     for (In& in : inputs)
         in = randomInput(random);
+    return inputs;
+}
+
+TEST_F(LibDisc, VectorsAreTheIntegralOverTheDisc)
+{
+    const std::vector<In> inputs = randomInputs(1, 300);
     const std::vector<Out> outs = run(inputs);
     for (size_t i = 0; i < inputs.size(); ++i) {
         const dvec3 expected = integral(inputs[i]);
@@ -71,10 +77,8 @@ TEST_F(LibDisc, VectorsAreTheIntegralOverTheDisc)
 // The sphere whose vector it is, cut by the horizon: rays over its cone.
 TEST_F(LibDisc, HorizonsCutWhatTheyCutOfASphere)
 {
-    RandomInputs random(2);
-    std::vector<In> inputs(200);
-    for (In& in : inputs)
-        in = randomInput(random);
+    RandomInputs random(3);
+    const std::vector<In> inputs = randomInputs(2, 200);
     const std::vector<Out> outs = run(inputs);
     double greatest = 0;
     for (size_t i = 0; i < inputs.size(); ++i) {

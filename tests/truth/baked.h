@@ -24,6 +24,8 @@ public:
 private:
     const bake::Bake* bake_;
 };
+
+/// That ground alone, and where a place on it lies on the page.
 scene::SceneEntity ground();
 vec2 groundUv(vec3 position);
 
