@@ -301,7 +301,7 @@ void main()
 #else
     float depthView = isSurface ? frameBlock.near / depth : 0.0;
     vec3 irradiance = isSurface ? lackingAtLeastNothing(r) : vec3(0.0);
-    vec3 hidden = hiddenVector(irradiance.r + irradiance.g + irradiance.b, hiddenTowards(r.normal), r.normal);
+    vec3 hidden = hiddenVector(sumOf(irradiance), hiddenTowards(r.normal), r.normal);
     TracedPixel traced = TracedPixel(hidden, tintOf(irradiance), coneCount, blockerDistance, depthView, r.normal);
     if (isInside)
         imageStore(storageWordImages[pc.occluded], ivec2(pixel), packTraced(traced));

@@ -4,10 +4,11 @@
 #include "lib/frame.glsl"
 #include "lib/float21.glsl"
 #include "lib/half.glsl"
+#include "lib/tint.glsl"
 #include "shared/prt.h"
 
 // The light that comes in at every cell of the irradiance volume: its matrix times the environment's light.
-layout(local_size_x = 64) in; // a thread a row of one cell's matrix; neighbours in space are neighbours in memory
+layout(local_size_x = 64) in; // a thread a row of one cell's matrix, or three of its fifth band; neighbours in space are so in memory
 
 layout(buffer_reference, scalar) readonly buffer Words { uint word[]; };
 layout(buffer_reference, scalar) buffer Cells { CellBlock cell[]; };
@@ -24,7 +25,7 @@ vec3 coefficient(uint row, uint cell)
         for (int c = 0; c < 3; ++c, index += pc.cellCount)
             sum[c] += radiance[c] * matrixValue(index);
     }
-    return sum;
+    return withinHalf(sum);
 }
 
 void main()
@@ -33,7 +34,18 @@ void main()
     if (cell >= pc.cellCount)
         return;
     Cells cells = Cells(pc.cells);
-    uvec2 words = packFloats21(withinHalf(coefficient(row, cell)));
-    words.y |= row == 0u ? cells.cell[cell].radiance[0].y & kCellIsOpen : 0u;
-    cells.cell[cell].radiance[row] = words;
+    if (row < kFifthBand) {
+        uvec2 words = packFloats21(coefficient(row, cell));
+        words.y |= row == 0u ? cells.cell[cell].radiance[0].y & kCellIsOpen : 0u;
+        cells.cell[cell].radiance[row] = words;
+        return;
+    }
+    uint three = row - kFifthBand;
+    vec3 sums;
+    for (uint i = 0u; i < 3u; ++i) {
+        vec3 radiance = coefficient(kFifthBand + 3u * three + i, cell);
+        cells.cell[cell].radiance[kFifthBand + 3u * three + i] = packFloats21(radiance);
+        sums[i] = sumOf(radiance);
+    }
+    cells.cell[cell].fifthBand[three] = packFloats21(sums);
 }

@@ -47,9 +47,9 @@ struct Grid
     }
 };
 
-/// Bands of local incident light, whatever the environment's number of bands. Three carry what a surface takes in; the fourth halves the
-/// error of what characters hide, for indoors light comes from a few sides.
-inline constexpr uint32_t kLocalBands = 4;
+/// Bands of local incident light, whatever the environment's number of bands: indoors it comes from a few sides. Of two walkers in a hall,
+/// with their shadows, irradiance is off by 4.4 % with four bands and by 2.6 with five.
+inline constexpr uint32_t kLocalBands = 5;
 inline constexpr uint32_t kLocalCoefficients = kLocalBands * kLocalBands;
 
 /// From the environment's light to the radiance that comes in at a point, with occlusion and interreflections by what is static:

@@ -8,7 +8,7 @@
 
 namespace antumbra::bake {
 
-inline constexpr int kBakeFileVersion = 2; // 2: four bands of local light, stitched seams
+inline constexpr int kBakeFileVersion = 3; // 3: five bands of local light
 
 inline constexpr const char* kVersionAttribute = "antumbra:version";
 inline constexpr const char* kSceneAttribute = "antumbra:scene";       // hash of the scene, 16 hexadecimal digits

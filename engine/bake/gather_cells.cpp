@@ -51,6 +51,8 @@ public:
     [[nodiscard]] size_t rayCount() const { return pattern_.size() * kLanes; }
 
 private:
+    static constexpr uint32_t kRowsAtOnce = 5;
+    static_assert(kLocalCoefficients % kRowsAtOnce == 0);
     static constexpr uint32_t kBasisBands = std::max(kBands, kLocalBands);
     using Basis = std::array<Lanes, kBasisBands * kBasisBands>;
 
@@ -85,24 +87,30 @@ private:
         }
     }
 
-    /// Column by column, so that all rows of one stay in registers over the packet.
     void addReflected(const Basis& basis, const HitPacket& met, uint32_t packet, Sums& sums) const
     {
         Reflections<kCoefficients> reflections;
         reflected_.collect(met, packet, reflections);
-        std::array<std::array<Four, kLocalCoefficients>, kLanes> weights;
+        for (uint32_t first = 0; first < kLocalCoefficients; first += kRowsAtOnce)
+            addToRows(first, basis, reflections, sums);
+    }
+
+    /// Column by column, so that the rows' parts of it stay in registers over the packet.
+    static void addToRows(uint32_t first, const Basis& basis, const Reflections<kCoefficients>& reflections, Sums& sums)
+    {
+        std::array<std::array<Four, kRowsAtOnce>, kLanes> weights;
         for (uint32_t hit = 0; hit < reflections.count; ++hit)
-            for (uint32_t j = 0; j < kLocalCoefficients; ++j)
-                weights[hit][j] = Four{} + basis[j][reflections.lanes[hit]];
+            for (uint32_t j = 0; j < kRowsAtOnce; ++j)
+                weights[hit][j] = Four{} + basis[first + j][reflections.lanes[hit]];
         for (size_t k = 0; k < sums.reflected[0].size(); ++k) {
-            std::array<Four, kLocalCoefficients> column;
-            for (uint32_t j = 0; j < kLocalCoefficients; ++j)
-                column[j] = sums.reflected[j][k];
+            std::array<Four, kRowsAtOnce> column;
+            for (uint32_t j = 0; j < kRowsAtOnce; ++j)
+                column[j] = sums.reflected[first + j][k];
             for (uint32_t hit = 0; hit < reflections.count; ++hit)
-                for (uint32_t j = 0; j < kLocalCoefficients; ++j)
+                for (uint32_t j = 0; j < kRowsAtOnce; ++j)
                     column[j] += weights[hit][j] * reflections.radiances[hit][k];
-            for (uint32_t j = 0; j < kLocalCoefficients; ++j)
-                sums.reflected[j][k] = column[j];
+            for (uint32_t j = 0; j < kRowsAtOnce; ++j)
+                sums.reflected[first + j][k] = column[j];
         }
     }
 

@@ -85,4 +85,16 @@ ShFunction localRadiance(const Bake& bake, const ShFunction& radiance, vec3 posi
     return sum;
 }
 
+glm::dvec3 localIrradiance(const Bake& bake, const ShFunction& radiance, vec3 position, vec3 normal)
+{
+    constexpr uint32_t kFifthBand = 16;
+    static_assert(kLocalBands == 5);
+    const auto sumOf = [](const glm::dvec3& colour) { return colour.x + colour.y + colour.z; };
+    ShFunction local = localRadiance(bake, radiance, position);
+    const glm::dvec3 light = glm::max(local.coefficients[0], glm::dvec3(0)), tint = light / std::max(sumOf(light), 1e-30);
+    for (uint32_t i = kFifthBand; i < kLocalCoefficients; ++i)
+        local.coefficients[i] = sumOf(local.coefficients[i]) * tint;
+    return irradianceOf(local)(normal);
+}
+
 } // namespace antumbra::bake

@@ -13,4 +13,8 @@ glm::dvec3 atlasIrradiance(const Bake& bake, const ShFunction& radiance, vec2 ba
 /// environment's own from a cell beyond the grid on.
 ShFunction localRadiance(const Bake& bake, const ShFunction& radiance, vec3 position);
 
+/// The irradiance there of a surface that faces `normal`, W/m^2: of three bands by colour, and of the fifth, which is small, in the colour
+/// of the first.
+glm::dvec3 localIrradiance(const Bake& bake, const ShFunction& radiance, vec3 position, vec3 normal);
+
 } // namespace antumbra::bake

@@ -10,7 +10,7 @@
 
 // What the samples found: sums of the SH basis over hidden directions, from which the irradiance follows once.
 #ifdef LOCAL_LIGHT
-const uint kHidden = 16u;
+const uint kHidden = kLocalShCoefficients;
 #else
 const uint kHidden = 9u;
 #endif
@@ -30,7 +30,7 @@ void addHidden(vec3 direction, float cosine)
     hiddenSum += direction / max(cosine, 0.1); // those that graze are few, and would drown the others
     float y[kHidden];
 #ifdef LOCAL_LIGHT
-    shBasis4(direction, y);
+    shBasis5(direction, y);
 #else
     shBasis3(direction, y);
 #endif
@@ -45,10 +45,10 @@ vec3 hiddenIrradiance(FrameBlock frame, vec3 position, uint sampleCount)
 #ifdef LOCAL_LIGHT
     vec3 radiance[kHidden];
     localRadiance(frame.baked, position, radiance);
-    // A surface that hides a direction faces the receiver and sends it some of its own irradiance, which is the cosine convolution turned
-    // about: a factor a band.
+    // A surface that hides a direction faces the receiver and sends it some of its own irradiance, which is the convolution with the cosine
+    // turned about.
     for (uint i = 0u; i < kHidden; ++i) {
-        float sent = i < 1u ? 1.0 : i < 4u ? -2.0 / 3.0 : i < 9u ? 0.25 : 0.0;
+        float sent = (i >= 1u && i < 4u ? -1.0 : 1.0) / kPi * cosineLobe(i);
         sum += (1.0 - sent * frame.baked.sentOn) * radiance[i] * hidden[i];
     }
 #else

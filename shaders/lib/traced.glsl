@@ -4,12 +4,13 @@
 
 #include "lib/half.glsl"
 #include "lib/octahedral.glsl"
+#include "lib/tint.glsl"
 
 // What is hidden is kept as a vector, so that surfaces nearby that face elsewhere, as folds do, know what they lack of it.
 struct TracedPixel
 {
     vec3 hidden; // its product with a normal is the irradiance that such a surface lacks, the sum of all channels, W/m^2
-    vec2 tint; // the shares of red and green in it
+    vec2 tint; // its, as of lib/tint.glsl
     uint cones; // 0..1023
     float blockerDistance; // metres to the nearest surface that hides light; kNoBlocker: nothing does
     float depthView; // metres; 0: no surface
@@ -25,10 +26,6 @@ vec3 hiddenVector(float irradiance, vec3 towards, vec3 normal)
     float cosine = dot(towards, normal);
     return withinHalf(irradiance * (towards + max(kLeastCosine - cosine, 0.0) * normal) / max(cosine, kLeastCosine));
 }
-
-vec3 coloured(float sum, vec2 tint) { return sum * vec3(tint, 1.0 - tint.x - tint.y); }
-
-vec2 tintOf(vec3 irradiance) { return irradiance.rg / max(irradiance.r + irradiance.g + irradiance.b, 1.0e-30); }
 
 // NaN stays what it is, for whoever counts it.
 float lackedBy(vec3 normal, vec3 hidden)

@@ -24,7 +24,7 @@ Found nothingFound() { return Found(0.0, vec3(0.0), vec3(0.0), vec4(0.0), vec3(0
 // For a surface that faces that way.
 Found turned(Found found, vec3 normal)
 {
-    float there = found.occluded.r + found.occluded.g + found.occluded.b;
+    float there = sumOf(found.occluded.rgb);
     found.occluded.rgb *= lackedBy(normal, found.hidden) / max(there, 1.0e-30);
     return found;
 }

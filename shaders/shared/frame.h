@@ -3,7 +3,7 @@
 #define SHARED_FRAME_H
 
 const uint kMostShCoefficients = 25u; // 5 bands
-const uint kLocalShCoefficients = 16u; // of light that comes in inside: 4 bands
+const uint kLocalShCoefficients = 25u; // of light that comes in inside: 5 bands
 
 struct BakedLight
 {

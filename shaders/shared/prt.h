@@ -3,9 +3,11 @@
 #define SHARED_PRT_H
 
 // The radiance that comes in at a cell of the irradiance volume, W/(m^2 sr), as in lib/float21.glsl. Closed cells are dark.
+const uint kFifthBand = 16u; // its first coefficient; the nine of it are written by threes
 struct CellBlock
 {
     uvec2 radiance[kLocalShCoefficients]; // the lowest bit of the first's second word: whether the cell is open
+    uvec2 fifthBand[3]; // three each of its coefficients, each the sum of its channels: all that surfaces need of it, in a third of the room
 };
 
 const uint kCellIsOpen = 1u;

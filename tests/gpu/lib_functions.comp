@@ -135,11 +135,11 @@ Out evaluate(In x) { return Out(cosineHammersley(x.i, x.count, 0.5)); }
 #elif defined(SH_BASIS)
 
 struct In { vec3 direction; };
-struct Out { float basis[16]; };
+struct Out { float basis[25]; };
 Out evaluate(In x)
 {
     Out result;
-    shBasis4(x.direction, result.basis);
+    shBasis5(x.direction, result.basis);
     return result;
 }
 

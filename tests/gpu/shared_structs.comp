@@ -291,6 +291,8 @@ void echo(CellBlock b)
 {
     for (int i = 0; i < b.radiance.length(); ++i)
         put(b.radiance[i]);
+    for (int i = 0; i < b.fifthBand.length(); ++i)
+        put(b.fifthBand[i]);
 }
 
 #elif defined(IRRADIANCE_CASE)

@@ -24,7 +24,7 @@ TEST_F(SharedStructs, GBufferDraw)
 
 TEST_F(SharedStructs, CellBlock)
 {
-    expectSameLayout<shader::CellBlock>("CELL_BLOCK", [](const auto& b) { return wordsOf(b.radiance); });
+    expectSameLayout<shader::CellBlock>("CELL_BLOCK", [](const auto& b) { return wordsOf(b.radiance, b.fifthBand); });
 }
 
 TEST_F(SharedStructs, MaterialBlock)

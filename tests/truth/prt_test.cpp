@@ -87,7 +87,7 @@ TEST_P(PrtBandsTest, PixelsShowWhatTheLookUpsOnTheCpuFind)
         double greatest[2]{}, sum[2]{};
         for (const SurfacePixel& at : surfacePixels(shown)) {
             const glm::dvec3 expected = at.isGround ? bake::atlasIrradiance(bake, light, groundUv(at.position))
-                                                    : bake::irradianceOf(bake::localRadiance(bake, light, at.position))(at.normal);
+                                                    : bake::localIrradiance(bake, light, at.position, at.normal);
             const double off = glm::length(glm::dvec3(pixelOf(unshadowed, at.pixel)) - expected) / scale;
             greatest[at.isGround ? 0 : 1] = std::max(greatest[at.isGround ? 0 : 1], off);
             sum[at.isGround ? 0 : 1] += glm::length(expected) / scale;

@@ -12,6 +12,7 @@ using graph::Use;
 
 constexpr uint32_t kRows = bake::kLocalCoefficients;
 static_assert(kRows == shader::kLocalShCoefficients);
+constexpr uint32_t kRowThreads = shader::kFifthBand + (kRows - shader::kFifthBand) / 3;
 
 void checkWhole(const bake::Bake& bake)
 {
@@ -109,7 +110,7 @@ void PrtSystem::declareVolume(graph::FrameGraph& graph, uint32_t frame, Baked& b
                                                 .frame = frame,
                                                 .coefficientCount = held_->bake->settings.coefficientCount(),
                                                 .cellCount = cellCount},
-                          {cellCount, kRows}, {64, 1});
+                          {cellCount, kRowThreads}, {64, 1});
     });
 }
 
