@@ -14,8 +14,9 @@ namespace {
 // Some ten milliseconds of a thread: so long may an interruption take.
 constexpr uint32_t kRaysPerTile = 1 << 16;
 constexpr uint32_t kMostUnitsPerTile = 1024;
-// Processes wait for the slowest at the end of a round, and what they did in it is lost where one dies.
-constexpr std::chrono::seconds kRound{2};
+// Processes wait for the slowest at the end of a round, and what they did in it is lost where one dies. Towards the end of a pass, where
+// what is left may be dealt unevenly for the speeds of processes, each round is half of what is left.
+constexpr std::chrono::duration<double> kLongestRound{2}, kShortestRound{0.05};
 constexpr std::chrono::milliseconds kReportInterval{250};
 
 constexpr std::byte kGoesOn{0};
@@ -122,7 +123,7 @@ size_t BakeRun::gather(const Pass& pass, std::span<const uint32_t> tiles)
             pass.gather(pass.rangeOf(tiles[i]));
         return i < tiles.size();
     };
-    roundEnd_ = Clock::now() + kRound;
+    roundEnd_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(roundOf(pass));
     {
         std::vector<std::jthread> others;
         for (uint32_t i = 1; i < std::min<size_t>(threads_, tiles.size()); ++i)
@@ -136,6 +137,22 @@ size_t BakeRun::gather(const Pass& pass, std::span<const uint32_t> tiles)
         } while (!isOver && gatherNext());
     }
     return std::min(next.load(), tiles.size());
+}
+
+BakeRun::Seconds BakeRun::roundOf(const Pass& pass) const
+{
+    const double rate = raysPerSecond(raysDone_);
+    if (job_.peers.count == 1 || rate == 0)
+        return kLongestRound;
+    uint64_t raysLeft = 0;
+    for (uint32_t tile = 0; tile < pass.tileCount(); ++tile)
+        raysLeft += isDone_[tile] ? 0 : raysOf(pass, tile);
+    return std::clamp(Seconds(static_cast<double>(raysLeft) / rate / 2), kShortestRound, kLongestRound);
+}
+
+double BakeRun::raysPerSecond(uint64_t raysDone) const
+{
+    return static_cast<double>(raysDone - raysRestored_) / Seconds(Clock::now() - started_).count();
 }
 
 bool BakeRun::isRoundOver()
@@ -173,13 +190,12 @@ void BakeRun::report(const Pass& pass, uint64_t raysOfRound)
     reported_ = now;
     // The others are about as far as this one.
     const uint64_t raysDone = std::min(raysDone_ + raysOfRound * job_.peers.count, raysAll_);
-    const double seconds = std::chrono::duration<double>(now - started_).count();
-    const double raysPerSecond = static_cast<double>(raysDone - raysRestored_) / seconds;
+    const double rate = raysPerSecond(raysDone);
     job_.report({.stage = pass.stage,
                  .raysDone = raysDone,
                  .raysAll = raysAll_,
-                 .raysPerSecond = raysPerSecond,
-                 .secondsLeft = raysPerSecond > 0 ? static_cast<double>(raysAll_ - raysDone) / raysPerSecond : 0});
+                 .raysPerSecond = rate,
+                 .secondsLeft = rate > 0 ? static_cast<double>(raysAll_ - raysDone) / rate : 0});
 }
 
 } // namespace antumbra::bake

@@ -34,11 +34,14 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
 
     void restore(const Pass& pass);
     void apply(const Pass& pass, std::span<const std::byte> records);
     [[nodiscard]] std::vector<uint32_t> shareOf(const Pass& pass) const;
     size_t gather(const Pass& pass, std::span<const uint32_t> tiles);
+    [[nodiscard]] Seconds roundOf(const Pass& pass) const;
+    [[nodiscard]] double raysPerSecond(uint64_t raysDone) const; // since the start, with so many done
     bool isRoundOver();
     bool exchange(const Pass& pass, std::span<const uint32_t> finished);
     void report(const Pass& pass, uint64_t raysOfRound);

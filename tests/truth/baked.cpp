@@ -106,6 +106,10 @@ bake::Bake randomBake(uint32_t bands, uint32_t seed)
     for (std::vector<uint16_t>* planes : {&bake.atlas.planes, &bake.volume.planes})
         for (uint16_t& value : *planes)
             value = glm::packHalf1x16(static_cast<float>(random.uniform(-1, 1)));
+    // Light as there can be: its mean is above nothing, whatever its bands.
+    const size_t cells = bake.volume.grid.cellCount(), columns = size_t{3} * bake.settings.coefficientCount();
+    for (size_t i = 0; i < columns * cells; ++i)
+        bake.volume.planes[i] = glm::packHalf1x16(static_cast<float>(i < 3 * cells ? random.uniform(0.5, 1) : random.uniform(-0.05, 0.05)));
     for (uint8_t& isOpen : bake.volume.isOpen)
         isOpen = random.index(3) != 0 ? 1 : 0;
     return bake;

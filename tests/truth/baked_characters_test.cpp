@@ -151,7 +151,8 @@ TEST_P(BakedCharacters, MeetPathTracingHoweverTheLightIsTurned)
     EXPECT_LE(error(Elsewhere), 0.14);
 }
 
-INSTANTIATE_TEST_SUITE_P(Truth, BakedCharacters, testing::Values(Picture{{96, 54}, 0}, Picture{{192, 108}, 0}, Picture{{128, 72}, 0.4f}, Picture{{160,90},1.1f}, Picture{{128,72},2.3f}, Picture{{256,144},0.8f}));
+INSTANTIATE_TEST_SUITE_P(Truth, BakedCharacters,
+                         testing::Values(Picture{{96, 54}, 0}, Picture{{192, 108}, 0}, Picture{{128, 72}, 0.4f}, Picture{{160, 90}, 1.1f}));
 
 } // namespace
 } // namespace antumbra::truth
