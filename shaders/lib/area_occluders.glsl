@@ -52,15 +52,16 @@ uint sidesOfOutline(vec3 plane)
     return sides;
 }
 
-// Whether the silhouette that was gathered last lies behind one of the outline's planes: two convex cones that do not meet are parted by a
-// plane of one of them.
-bool outlineMissesSilhouette()
+// Whether the silhouette that was gathered last, from `first` on, lies behind one of the outline's planes: two convex cones that do not meet
+// are parted by a plane of one of them. Of edges that were dropped nobody knows.
+bool outlineMissesSilhouette(int first)
 {
     bool misses = false;
     for (int i = 0; i < outlineCount && !misses; ++i) {
-        bool isBehind = dot(outlinePlanes[i], outlinePlanes[i]) > 0.0;
-        for (int k = 0; k < endCount && isBehind; ++k)
-            isBehind = dot(outlinePlanes[i], edgeEnds[k]) <= -kPartingPlane;
+        vec3 plane = outlinePlanes[i];
+        bool isBehind = !hasDropped && dot(plane, plane) > 0.0;
+        for (int k = first; k < edgeCount && isBehind; ++k)
+            isBehind = max(dot(plane, edgeStartUnit(k)), dot(plane, edgeEndUnit(k))) <= -kPartingPlane;
         misses = isBehind;
     }
     return misses;
@@ -85,10 +86,7 @@ int endOfFewer(int first)
     int kept = min(edgeCount - first, mostPlanes);
     if (kept == edgeCount - first)
         return edgeCount;
-    vec3 middle = vec3(0.0);
-    for (int k = 0; k < endCount; ++k)
-        middle += edgeEnds[k];
-    middle = unitOrZero(middle);
+    vec3 middle = unitOrZero(silhouetteMiddle);
     vec3 across = unitOrZero(edgePlanes[first].xyz - middle * dot(middle, edgePlanes[first].xyz)), beside = cross(middle, across);
     for (int i = 0; i < kept; ++i) {
         float turn = 6.28318531 * float(i) / float(kept), most = -2.0;
@@ -114,7 +112,7 @@ void keepOccluder(int first)
         covers = covers && (sides & 2u) == 0u;
     }
     isAllHidden = isAllHidden || (covers && !misses);
-    misses = misses || (silhouetteFits && outlineMissesSilhouette());
+    misses = misses || (silhouetteFits && outlineMissesSilhouette(first));
     bool fits = silhouetteFits && occluderCount < AREA_OCCLUDERS;
     isOccluderLost = isOccluderLost || (!misses && !fits);
     edgeCount = misses || !fits ? first : endOfFewer(first);

@@ -12,16 +12,20 @@ struct CutPlane
     float offset; // of the point itself; metres
 };
 
-// Edges of silhouettes, counter-clockwise seen from the point, one body after another. All are relative to the point.
+// Edges of silhouettes, counter-clockwise seen from the point, one body after another: what of them is in front of the cut. All are relative
+// to the point.
 #ifndef IN_SCRATCH
 vec3 edgeStarts[SILHOUETTE_EDGES];
 vec3 edgeSpans[SILHOUETTE_EDGES];
 vec4 edgePlanes[SILHOUETTE_EDGES]; // unit, what the body hides in front. w: 1 where it is a face's plane, not that of the edge
 #endif
-vec3 edgeEnds[2 * SILHOUETTE_BODY_EDGES]; // unit, of the body that was gathered last: what of the edge is in front of the cut
 int edgeCount = 0;
-int endCount = 0; // of edgeEnds
 bool silhouetteFits; // nothing was left out since it was set
+
+// Of the body that was gathered last.
+vec3 silhouetteMiddle; // the sum of unit vectors to both ends of each edge
+bool hasShortEdge; // whose plane rounding may have tilted
+bool hasDropped; // planes that were false
 
 uint frontFaces[FACE_WORDS]; // of the body that was looked at last; those in whose plane the point lies count as front
 uint levelFaces[FACE_WORDS]; // the point lies in their plane
@@ -63,7 +67,26 @@ bool findFronts(BodyArrays arrays, BodyBlock body, vec3 point, float tolerance)
 // Farther than any vertex of the body.
 float reachOf(BodyBlock body, vec3 point) { return distance(body.centre, point) + body.radius; }
 
-void addEdge(int first, vec3 start, vec3 span, vec4 plane, vec3 startSeen, vec3 endSeen)
+void beginSilhouette()
+{
+    silhouetteMiddle = vec3(0.0);
+    hasShortEdge = false;
+    hasDropped = false;
+}
+
+const float kShortEdge2 = 4.0e-4; // squared chord between unit vectors to its ends
+
+float chord2Of(vec3 startUnit, vec3 endUnit)
+{
+    vec3 chord = startUnit - endUnit;
+    return dot(chord, chord);
+}
+
+vec3 unitTo(vec3 v) { return v * inversesqrt(max(dot(v, v), 1.0e-30)); }
+vec3 edgeStartUnit(int edge) { return unitTo(edgeStarts[edge]); }
+vec3 edgeEndUnit(int edge) { return unitTo(edgeStarts[edge] + edgeSpans[edge]); }
+
+void addEdge(int first, vec3 start, vec3 span, vec4 plane)
 {
     bool hasPlane = dot(plane.xyz, plane.xyz) > 0.0;
     bool isFull = edgeCount >= SILHOUETTE_EDGES || edgeCount - first >= SILHOUETTE_BODY_EDGES;
@@ -72,10 +95,10 @@ void addEdge(int first, vec3 start, vec3 span, vec4 plane, vec3 startSeen, vec3 
         return;
     edgeStarts[edgeCount] = start;
     edgeSpans[edgeCount] = span;
-    edgePlanes[edgeCount] = plane;
-    edgeEnds[endCount++] = startSeen * inversesqrt(max(dot(startSeen, startSeen), 1.0e-30));
-    edgeEnds[endCount++] = endSeen * inversesqrt(max(dot(endSeen, endSeen), 1.0e-30));
-    ++edgeCount;
+    edgePlanes[edgeCount++] = plane;
+    vec3 startUnit = unitTo(start), endUnit = unitTo(start + span);
+    silhouetteMiddle += startUnit + endUnit;
+    hasShortEdge = hasShortEdge || (chord2Of(startUnit, endUnit) < kShortEdge2 && plane.w == 0.0);
 }
 
 vec3 unitOrZero(vec3 v)
@@ -90,15 +113,16 @@ vec3 planeThrough(vec3 start, vec3 span) { return unitOrZero(cross(start, unitOr
 // The edge where some of it is in front of the cut.
 void addEdgeInFront(int first, vec3 start, vec3 span, vec4 through, bool isCut, CutPlane plane)
 {
-    vec3 end = start + span, startSeen = start, endSeen = end;
+    const float kLeastShare = 1.0e-6; // what is left of an edge has its direction
+    vec2 seen = vec2(0.0, 1.0);
     if (isCut) {
-        float startHeight = dot(plane.normal, start) + plane.offset, endHeight = dot(plane.normal, end) + plane.offset;
+        float startHeight = dot(plane.normal, start) + plane.offset, endHeight = dot(plane.normal, start + span) + plane.offset;
         if (startHeight <= 0.0 && endHeight <= 0.0)
             return;
-        startSeen = startHeight < 0.0 ? start + span * (startHeight / (startHeight - endHeight)) : start;
-        endSeen = endHeight < 0.0 ? end - span * (endHeight / (endHeight - startHeight)) : end;
+        seen.x = startHeight < 0.0 ? startHeight / (startHeight - endHeight) : 0.0;
+        seen.y = endHeight < 0.0 ? startHeight / (startHeight - endHeight) : 1.0;
     }
-    addEdge(first, start, span, through, startSeen, endSeen);
+    addEdge(first, start + seen.x * span, max(seen.y - seen.x, kLeastShare) * span, through);
 }
 
 void addSilhouetteEdge(int first, BodyArrays arrays, BodyBlock body, vec3 point, EdgeBlock edge, bool isCut, CutPlane plane)
@@ -143,7 +167,20 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
     vec3 start = isFront(index) ? entering : leaving, end = isFront(index) ? leaving : entering;
     vec4 through = isLevel(index) ? vec4(-face.normal, 1.0) : vec4(planeThrough(start, end - start), 0.0);
     if (leaves && enters)
-        addEdge(first, start, end - start, through, start, end);
+        addEdge(first, start, end - start, through);
+}
+
+// Whether some edge that was gathered reaches behind the plane of another: farther than rounding tilts planes of short edges, whose neighbours
+// bound what they would, or runs back.
+bool isFalsePlane(int first, int edge, bool isFolded)
+{
+    vec4 plane = edgePlanes[edge];
+    float chord2 = chord2Of(edgeStartUnit(edge), edgeEndUnit(edge)), lowest = 0.0;
+    bool isShort = chord2 < kShortEdge2, isTried = (isFolded || isShort) && plane.w == 0.0; // that of a face has nothing to do with the edge
+    int end = isTried ? edgeCount : first;
+    for (int k = first; k < end; ++k)
+        lowest = min(lowest, min(dot(plane.xyz, edgeStartUnit(k)), dot(plane.xyz, edgeEndUnit(k))));
+    return lowest < -1.0e-6 && lowest * lowest > (isShort ? min(0.25 * chord2, 1.0e-9) : 1.0e-7);
 }
 
 // A mesh of floats is convex to rounding alone. The plane through a short edge tells: it goes where it cuts into the silhouette. And a
@@ -151,32 +188,27 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
 // with planes that leave nothing of what the body hides. One such plane has the middle of the silhouette behind it: all are tried then.
 void dropFalsePlanes(int first)
 {
-    vec3 middle = vec3(0.0);
-    for (int k = 0; k < endCount; ++k)
-        middle += edgeEnds[k];
+    const float kFalse = -1.0;
     bool isFolded = false;
     for (int i = first; i < edgeCount; ++i)
-        isFolded = isFolded || dot(edgePlanes[i].xyz, middle) < -1.0e-6 * float(endCount);
-    int kept = first;
-    for (int i = first; i < edgeCount; ++i) {
-        vec3 chord = edgeEnds[2 * (i - first)] - edgeEnds[2 * (i - first) + 1];
-        float chord2 = dot(chord, chord), lowest = 0.0;
-        bool isTried = (isFolded || chord2 < 4.0e-4) && edgePlanes[i].w == 0.0; // that of a face has nothing to do with the edge
-        int count = isTried ? endCount : 0;
-        for (int k = 0; k < count; ++k)
-            lowest = min(lowest, dot(edgePlanes[i].xyz, edgeEnds[k]));
-        // Rounding tilts planes of short edges, and their neighbours bound what they would. Of long ones only those that run back go.
-        float most2 = chord2 < 4.0e-4 ? min(0.25 * chord2, 1.0e-9) : 1.0e-7;
-        if (lowest < -1.0e-6 && lowest * lowest > most2)
-            continue;
-        if (kept < i) { // seldom, and CPU devices pay for every word
-            edgeStarts[kept] = edgeStarts[i];
-            edgeSpans[kept] = edgeSpans[i];
-            edgePlanes[kept] = edgePlanes[i];
-        }
-        ++kept;
+        isFolded = isFolded || dot(edgePlanes[i].xyz, silhouetteMiddle) < -2.0e-6 * float(edgeCount - first);
+    // Seldom, and CPU devices pay for every word: loops that go round for nobody are jumped over.
+    int end = isFolded || hasShortEdge ? edgeCount : first, kept = first;
+    for (int i = first; i < end; ++i) {
+        bool isFalse = isFalsePlane(first, i, isFolded);
+        hasDropped = hasDropped || isFalse;
+        edgePlanes[i].w = isFalse ? kFalse : edgePlanes[i].w;
     }
-    edgeCount = kept;
+    end = hasDropped ? edgeCount : first;
+    for (int i = first; i < end; ++i) {
+        vec4 plane = edgePlanes[i];
+        if (plane.w == kFalse)
+            continue;
+        edgeStarts[kept] = edgeStarts[i];
+        edgeSpans[kept] = edgeSpans[i];
+        edgePlanes[kept++] = plane;
+    }
+    edgeCount = hasDropped ? kept : edgeCount;
 }
 
 // What a body hides from a point.
@@ -205,7 +237,7 @@ bool addSilhouette(BodyArrays arrays, BodyBlock body, vec3 point, bool isCut, Cu
     if (hiding != kHidesPart)
         return hiding == kHidesNothing;
     int first = edgeCount;
-    endCount = 0;
+    beginSilhouette();
     for (uint i = 0u; i < body.edgeCount; ++i)
         addSilhouetteEdge(first, arrays, body, point, BodyEdges(arrays.edges).edge[body.firstEdge + i], isCut, plane);
     if (isCut)

@@ -19,7 +19,7 @@ void addTriangle(int first, BodyArrays arrays, BodyBlock body, vec3 point, FaceB
     }
     vec3 leaving = vec3(0.0), entering = vec3(0.0);
     bool isCrossed = false;
-    endCount = 0;
+    beginSilhouette();
     for (int i = 0; i < 3; ++i) {
         vec3 start = corners[i], span = corners[i < 2 ? i + 1 : 0] - start;
         addEdgeInFront(first, start, span, vec4(planeThrough(start, span), 0.0), isCut, plane);
@@ -32,7 +32,7 @@ void addTriangle(int first, BodyArrays arrays, BodyBlock body, vec3 point, FaceB
         }
     }
     if (isCrossed)
-        addEdge(first, leaving, entering - leaving, vec4(planeThrough(leaving, entering - leaving), 0.0), leaving, entering);
+        addEdge(first, leaving, entering - leaving, vec4(planeThrough(leaving, entering - leaving), 0.0));
     dropFalsePlanes(first);
 }
 
