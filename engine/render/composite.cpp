@@ -37,6 +37,16 @@ gpu::Pipeline drawnOver(gpu::Device& device, std::string_view vertexShader, std:
                                    .writesDepth = false});
 }
 
+/// Empty where area light is upsampled in a pass of its own.
+std::string_view whyNotUpsampled(const Traced& traced, const AreaLit& found)
+{
+    if (!found.diffuse)
+        return "no AreaLight in the scene";
+    if (found.pixelScale == 1)
+        return "area light is found for every pixel";
+    return !traced.pixels || traced.pixelScale == found.pixelScale ? "composition does it" : "";
+}
+
 } // namespace
 
 const gpu::Pipeline& CompositeSystem::composition(Variant variant)
@@ -74,10 +84,8 @@ const gpu::Pipeline& CompositeSystem::lightBody(bool keepsColor)
 AreaLit CompositeSystem::litWhereTraced(graph::FrameGraph& graph, uint32_t frame, const GBuffer& g, const Traced& traced,
                                         const AreaLit& found)
 {
-    if (!found.diffuse || found.pixelScale == 1 || !traced.pixels || traced.pixelScale == found.pixelScale) {
-        graph.skip("area upsample", !found.diffuse          ? "no AreaLight in the scene"
-                                    : found.pixelScale == 1 ? "area light is found for every pixel"
-                                                            : "composition does it");
+    if (const std::string_view reason = whyNotUpsampled(traced, found); !reason.empty()) {
+        graph.skip("area upsample", reason);
         return found;
     }
     const bool isGlossy = static_cast<bool>(found.specular);
