@@ -170,8 +170,8 @@ void addCutFace(int first, BodyArrays arrays, BodyBlock body, vec3 point, uint i
         addEdge(first, start, end - start, through);
 }
 
-// Whether some edge that was gathered reaches behind the plane of another: farther than rounding tilts planes of short edges, whose neighbours
-// bound what they would, or runs back.
+// Whether some of what was gathered is behind the edge's plane. Rounding tilts planes of short edges, and their neighbours bound what they
+// would. Of long ones only those that run back are false.
 bool isFalsePlane(int first, int edge, bool isFolded)
 {
     vec4 plane = edgePlanes[edge];
