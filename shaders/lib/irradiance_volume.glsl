@@ -106,13 +106,8 @@ vec3 irradianceOfCells(CellSum sum, vec3 normal)
         irradiance += cosineLobe(i) * y[i] * sum.values[i];
         fifth += cosineLobe(kFifthBand) * y[kFifthBand + i] * sum.values[kLocalShCoefficients + i / 3u][i % 3u];
     }
-    return irradiance + coloured(fifth, tintOf(max(sum.values[0], vec3(0.0))));
-}
-
-void addOverQuad(inout vec3 value)
-{
-    value += subgroupQuadSwapHorizontal(value);
-    value += subgroupQuadSwapVertical(value);
+    vec3 mean = max(sum.values[0], vec3(0.0)); // which tells no colour where it is nothing
+    return irradiance + mean * (fifth / max(sumOf(mean), 1.0e-30));
 }
 
 // The irradiance of a surface there that faces `normal`, W/m^2, in the middle of a quad's fragments, by all four: each adds two cells. What
@@ -129,13 +124,13 @@ vec3 localIrradianceOfQuad(BakedLight baked, vec3 positionWorld, vec3 normal, bo
     }
     for (uint i = 0u; i < kCellWords; ++i)
         addOverQuad(sum.values[i]);
-    float openness = sum.openness + subgroupQuadSwapHorizontal(sum.openness), outside = shareOutside(baked, place);
-    openness += subgroupQuadSwapVertical(openness);
-    vec3 irradiance = weightOfCells(openness, outside) * irradianceOfCells(sum, normal);
+    addOverQuad(sum.openness);
+    float outside = shareOutside(baked, place);
+    vec3 irradiance = weightOfCells(sum.openness, outside) * irradianceOfCells(sum, normal);
     // A loop that goes round for nobody is what spares CPU devices the work.
     uint rounds = outside > 0.0 ? 1u : 0u;
     for (uint i = 0u; i < rounds; ++i)
-        irradiance += weightOfEnvironment(openness, outside) * irradianceOfSh5(baked.outside, normal);
+        irradiance += weightOfEnvironment(sum.openness, outside) * irradianceOfSh5(baked.outside, normal);
     return irradiance;
 }
 

@@ -4,6 +4,18 @@
 
 #extension GL_KHR_shader_subgroup_quad : require
 
+void addOverQuad(inout float value)
+{
+    value += subgroupQuadSwapHorizontal(value);
+    value += subgroupQuadSwapVertical(value);
+}
+
+void addOverQuad(inout vec3 value)
+{
+    value += subgroupQuadSwapHorizontal(value);
+    value += subgroupQuadSwapVertical(value);
+}
+
 // Of the fragments on the triangle: helpers lie off it, anywhere on its plane.
 vec3 meanOverQuad(vec3 value, bool isHelper)
 {

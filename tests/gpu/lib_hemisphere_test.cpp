@@ -89,7 +89,8 @@ TEST_F(LibHemisphere, SphericalHarmonicsMatchTheBake)
     for (size_t i = 0; i < inputs.size(); ++i) {
         const bake::ShBasis expected = bake::shBasis(dvec3(inputs[i]));
         for (size_t k = 0; k < outputs[i].size(); ++k)
-            ASSERT_NEAR(outputs[i][k], expected[k], 1e-6) << i << ' ' << k; // terms of up to 35 times 0.11, each rounded
+            ASSERT_NEAR(outputs[i][k], expected[k], k < 16 ? 4e-7 : 1e-6)
+                << i << ' ' << k; // the fifth band: terms of 35 times 0.11, rounded
     }
 }
 

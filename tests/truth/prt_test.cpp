@@ -101,6 +101,20 @@ TEST_P(PrtBandsTest, PixelsShowWhatTheLookUpsOnTheCpuFind)
 
 INSTANTIATE_TEST_SUITE_P(Truth, PrtBandsTest, testing::Values(2, 3, 4, 5), testing::PrintToStringParamName());
 
+TEST_F(PrtTest, TheFifthBandHasNoColourWhereTheMeanIsNothing)
+{
+    const bake::Bake bake = bakeOf(3, {openTexel, [](uint32_t j, uint32_t i) { return j >= 16 && i == 0 ? 1.0 : 0.0; }});
+    ShownGround shown(device(), &bake);
+    const scene::ImageF unshadowed = shown.capture(Aov::Unshadowed);
+    size_t count = 0;
+    for (const SurfacePixel& at : surfacePixels(shown))
+        if (!at.isGround) {
+            ASSERT_EQ(pixelOf(unshadowed, at.pixel), vec3(0)) << at.pixel;
+            ++count;
+        }
+    EXPECT_GT(count, 100u);
+}
+
 TEST_P(PrtBackendTest, HalfTheLocalLightHidesHalfAsMuch)
 {
     const bake::Bake whole = openBake(3), half = bakeOf(3, {openTexel, [](uint32_t j, uint32_t i) { return 0.5 * openCell(j, i); }});
