@@ -46,6 +46,7 @@
 #ifdef FIELDS
 #include "lib/field.glsl"
 #include "lib/field_ray.glsl"
+#include "lib/field_boxes.glsl"
 #endif
 #endif
 
@@ -79,7 +80,11 @@ bool isHidden(AreaBlock area, LitSurface s, LightSample point)
 {
     bool isHidden = distanceToBlocker(pc.scene, kMaskAll, s.position, point.direction, point.before, true) >= 0.0;
 #ifdef FIELDS
-    isHidden = isHidden || distanceToField(Fields(area.fields).block, s.position, point.direction, point.before) >= 0.0;
+    FieldsBlock fields = Fields(area.fields).block;
+    FieldRay ray = fieldRay(s.position, point.direction);
+    if (!isHidden)
+        addGroups(pc.scene, fields, point.before, ray);
+    isHidden = isHidden || distanceToField(fields, ray) >= 0.0;
 #endif
     return isHidden;
 }
@@ -245,6 +250,9 @@ vec2 shareSeen(uint light, uint litPixel, uint litPixels)
 
 void main()
 {
+#if SHADOW == 2 && defined(FIELDS)
+    holdSteps(Fields(Areas(pc.area).block.fields).block);
+#endif
     ivec2 litPixel = ivec2(spreadInvocation(kAreaGroupHeight)), extent = textureSize(sampledImages[pc.depth], 0);
     ivec2 lit = litExtent(extent, pc.pixelScale), pixel = litAt(litPixel, pc.pixelScale, extent);
     bool isInside = all(lessThan(litPixel, lit));

@@ -56,8 +56,10 @@ float seenOf(FieldsBlock fields, AreaBlock area, BodyBlock light, LitSurface s, 
     for (uint i = 0u; i < pc.rays && squareMetres > 0.0; ++i) {
         LightSample point = lightSample(area.arrays, light, s, squareMetres, pointOfSequence(shift, i));
         bool isSeen = point.diffuse > 0.0;
+        FieldRay ray = fieldRay(s.position, point.direction);
         if (isSeen)
-            isSeen = distanceToField(fields, s.position, point.direction, point.before) < 0.0;
+            addGroups(fields, point.before, ray);
+        isSeen = isSeen && distanceToField(fields, ray) < 0.0;
         seen += isSeen ? point.diffuse : 0.0;
         all += point.diffuse;
     }

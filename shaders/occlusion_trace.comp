@@ -24,6 +24,7 @@
 #ifdef FIELDS
 #include "lib/field.glsl"
 #include "lib/field_ray.glsl"
+#include "lib/field_boxes.glsl"
 #endif
 #include "lib/hidden_light.glsl"
 #ifdef LOCAL_LIGHT
@@ -36,7 +37,7 @@ layout(buffer_reference, scalar) readonly buffer Capsules { CapsuleBlock block[]
 layout(buffer_reference, scalar) buffer Counters { CounterBlock block; };
 layout(push_constant, scalar) uniform Push { OcclusionTrace pc; };
 
-// One thread a pixel, for finding the rays that survive; then the group's rays are dealt out evenly, so that no lane idles.
+// One thread a pixel, for finding the rays that survive; then a thread of its group may trace any of them.
 layout(local_size_x = kTraceGroupWidth, local_size_y = kTraceGroupHeight) in;
 const uint kGroupSize = kTraceGroupWidth * kTraceGroupHeight;
 
@@ -61,26 +62,29 @@ vec3 localSample(uint i)
 #endif
 }
 
-// How far off a distance field is that the ray meets; negative where it meets none.
-float fieldAlong(vec3 origin, vec3 direction, float far)
-{
-#ifdef FIELDS
-    return distanceToField(Fields(pc.fields).block, origin, direction, far);
-#else
-    return -1.0;
-#endif
-}
-
 // What a cone can hide at most is a share of the unshadowed irradiance; 0.3 bounds the light's unevenness (methods/conical-culling.md).
 bool isNegligible(Cone cone, vec3 normal) { return 0.3 * greatestShare(cone, normal) < pc.tolerance; }
 
 #if CULLING == 0
 
+// How far off a distance field is that the ray meets; negative where it meets none.
+float fieldAlong(vec3 origin, vec3 direction)
+{
+#ifdef FIELDS
+    FieldsBlock fields = Fields(pc.fields).block;
+    FieldRay ray = fieldRay(origin, direction);
+    addGroups(pc.scene, fields, kRayFar, ray);
+    return distanceToField(fields, ray);
+#else
+    return -1.0;
+#endif
+}
+
 void traceAll(Receiver r)
 {
     for (uint i = 0u; i < pc.sampleCount; ++i) {
         vec3 local = localSample(i), direction = r.frame * local;
-        float field = fieldAlong(r.origin, direction, kRayFar);
+        float field = fieldAlong(r.origin, direction);
         float hit = dynamicHitFirstOfAll(pc.scene, r.origin, direction, field);
         if (hit >= 0.0) {
             addHidden(direction, local.z);
@@ -159,45 +163,7 @@ Survivors survivorsOfBatch(Receiver r)
     return survivors;
 }
 
-// The group's rays, each the number of its pixel and of its sample, and what every pixel's rays start from.
-shared uint rayCount;
-shared uint rays[kGroupSize * kBatch];
-shared uint hits[kGroupSize];
-shared vec3 origins[kGroupSize];
-shared vec3 tangents[kGroupSize];
-shared vec3 normals[kGroupSize];
-shared float fars[kGroupSize];
-shared uint nearestHits[kGroupSize]; // bits of distances, which order as they do
-
-// Traces the group's surviving rays and adds what this pixel's found.
-void traceTogether(Receiver r, Survivors survivors, uint base)
-{
-    uint me = gl_LocalInvocationIndex;
-    barrier();
-    rayCount = 0u;
-    hits[me] = 0u;
-    fars[me] = survivors.far;
-    barrier();
-    uint next = atomicAdd(rayCount, uint(bitCount(survivors.samples)));
-    for (uint word = survivors.samples; word != 0u; word &= word - 1u)
-        rays[next++] = me * kBatch + uint(findLSB(word));
-    barrier();
-    for (uint i = me; i < rayCount; i += kGroupSize) {
-        uint pixel = rays[i] / kBatch, bit = rays[i] % kBatch;
-        vec3 direction = mat3(tangents[pixel], cross(normals[pixel], tangents[pixel]), normals[pixel]) * localSample(base + bit);
-        float field = fieldAlong(origins[pixel], direction, fars[pixel]);
-        float hit = dynamicHitFirst(pc.scene, origins[pixel], direction, fars[pixel], field);
-        if (hit >= 0.0) {
-            atomicOr(hits[pixel], 1u << bit);
-            atomicMin(nearestHits[pixel], floatBitsToUint(hit));
-        }
-    }
-    barrier();
-    for (uint word = hits[me]; word != 0u; word &= word - 1u) {
-        vec3 local = localSample(base + uint(findLSB(word)));
-        addHidden(r.frame * local, local.z);
-    }
-}
+#include "lib/dealt_rays.glsl"
 
 void traceSurvivors(Receiver r, bool isSurface)
 {
@@ -206,13 +172,13 @@ void traceSurvivors(Receiver r, bool isSurface)
     tangents[me] = r.frame[0];
     normals[me] = r.normal;
     nearestHits[me] = floatBitsToUint(kNoBlocker);
-    for (uint base = 0u; base < pc.sampleCount; base += kBatch) {
-        loadBatch(base);
+    for (firstSample = 0u; firstSample < pc.sampleCount; firstSample += kBatch) {
+        loadBatch(firstSample);
         Survivors survivors = Survivors(0u, 0.0);
         if (isSurface)
             survivors = survivorsOfBatch(r);
         raysTraced += uint(bitCount(survivors.samples));
-        traceTogether(r, survivors, base);
+        traceTogether(r, survivors);
     }
     blockerDistance = uintBitsToFloat(nearestHits[me]);
 }
@@ -275,6 +241,9 @@ Receiver receiverAt(uvec2 pixel, uvec2 fullPixel, float depth)
 
 void main()
 {
+#ifdef FIELDS
+    holdSteps(Fields(pc.fields).block);
+#endif
     uvec2 pixel = spreadInvocation(kTraceGroupHeight);
     uvec2 fullExtent = uvec2(textureSize(sampledImages[pc.depth], 0));
     uvec2 extent = uvec2(ceil(vec2(fullExtent) / pc.pixelScale));

@@ -22,6 +22,16 @@ VkAccelerationStructureGeometryKHR triangleGeometry(const TriangleInput& input)
     return geometry;
 }
 
+VkAccelerationStructureGeometryKHR boxGeometry(VkDeviceAddress boxes)
+{
+    VkAccelerationStructureGeometryKHR geometry{.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR,
+                                                .geometryType = VK_GEOMETRY_TYPE_AABBS_KHR};
+    geometry.geometry.aabbs = {.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR,
+                               .data = {.deviceAddress = boxes},
+                               .stride = sizeof(VkAabbPositionsKHR)};
+    return geometry;
+}
+
 VkAccelerationStructureGeometryKHR instanceGeometry(VkDeviceAddress instances)
 {
     VkAccelerationStructureGeometryKHR geometry{.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR,
@@ -69,6 +79,12 @@ AccelSizes trianglesSizes(Device& device, uint32_t vertexCount, uint32_t triangl
     return sizesOf(device, buildInfo(geometry, true, isDynamic), triangleCount);
 }
 
+AccelSizes boxesSizes(Device& device, uint32_t boxCount)
+{
+    const auto geometry = boxGeometry(0);
+    return sizesOf(device, buildInfo(geometry, true, true), boxCount);
+}
+
 AccelSizes instancesSizes(Device& device, uint32_t instanceCount)
 {
     const auto geometry = instanceGeometry(0);
@@ -104,6 +120,12 @@ void recordBuild(VkCommandBuffer commands, const Accel& target, const TriangleIn
 {
     const auto geometry = triangleGeometry(input);
     record(commands, buildInfo(geometry, true, isDynamic), target, input.triangleCount, scratch);
+}
+
+void recordBuild(VkCommandBuffer commands, const Accel& target, const BoxInput& input, VkDeviceAddress scratch)
+{
+    const auto geometry = boxGeometry(input.boxes);
+    record(commands, buildInfo(geometry, true, true), target, input.boxCount, scratch);
 }
 
 void recordBuild(VkCommandBuffer commands, const Accel& target, VkDeviceAddress instances, uint32_t instanceCount, VkDeviceAddress scratch)

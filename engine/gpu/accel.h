@@ -14,6 +14,13 @@ struct TriangleInput
     uint32_t triangleCount = 0;
 };
 
+/// Boxes that lie in a row, VkAabbPositionsKHR; a ray query gives each that it may meet as a candidate.
+struct BoxInput
+{
+    VkDeviceAddress boxes = 0;
+    uint32_t boxCount = 0;
+};
+
 struct AccelSizes
 {
     VkDeviceSize structure = 0;
@@ -22,6 +29,8 @@ struct AccelSizes
 
 /// Sizes for a structure of triangles that is rebuilt often (`isDynamic`: fast to build) or once (fast to trace).
 AccelSizes trianglesSizes(Device& device, uint32_t vertexCount, uint32_t triangleCount, bool isDynamic);
+/// Of boxes that are rebuilt often.
+AccelSizes boxesSizes(Device& device, uint32_t boxCount);
 AccelSizes instancesSizes(Device& device, uint32_t instanceCount);
 
 /// An acceleration structure and the memory it lies in.
@@ -54,6 +63,7 @@ private:
 
 /// The builds read and write device memory only; the caller orders them with barriers (Use::AccelBuildInput, Use::AccelWrite).
 void recordBuild(VkCommandBuffer commands, const Accel& target, const TriangleInput& input, bool isDynamic, VkDeviceAddress scratch);
+void recordBuild(VkCommandBuffer commands, const Accel& target, const BoxInput& input, VkDeviceAddress scratch);
 void recordBuild(VkCommandBuffer commands, const Accel& target, VkDeviceAddress instances, uint32_t instanceCount, VkDeviceAddress scratch);
 
 } // namespace antumbra::gpu

@@ -10,8 +10,7 @@ namespace {
 gpu::Pipeline makePipeline(gpu::Device& device, const FieldPipelineKey& key)
 {
     const FieldShader& shader = key.shader;
-    std::vector<gpu::ShaderDefine> defines;
-    std::ranges::copy_if(shader.defines, std::back_inserter(defines), [](const gpu::ShaderDefine& define) { return !define.name.empty(); });
+    std::vector<gpu::ShaderDefine> defines(shader.defined().begin(), shader.defined().end());
     if (!key.structure.empty())
         defines.push_back({.name = "FIELD_STRUCTURE", .text = key.structure});
     if (!key.structure.empty() && device.info().isCpu) // what a CPU device reads in a loop it gathers each time; a GPU's registers are few

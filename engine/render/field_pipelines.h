@@ -8,6 +8,7 @@
 #include <array>
 #include <future>
 #include <list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,16 @@ namespace antumbra::render {
 struct FieldShader
 {
     std::string_view file;                            // .comp, or .frag, drawn by field.vert
-    std::array<gpu::ShaderDefine, 4> defines{};       // beside FIELD_STRUCTURE; the first without a name ends them
+    std::array<gpu::ShaderDefine, 6> defines{};       // beside FIELD_STRUCTURE; the first without a name ends them
     std::array<gpu::Format, 5> colorFormats{};        // of .frag; the first undefined one ends them
     gpu::Format depthFormat = gpu::Format::Undefined; // of .frag
+    bool meetsBones = false;                          // the steps that stand for characters too
 
     void define(std::string_view name, int value = 1) { *std::ranges::find(defines, gpu::ShaderDefine{}) = {name, value}; }
+    [[nodiscard]] std::span<const gpu::ShaderDefine> defined() const
+    {
+        return {defines.begin(), std::ranges::find(defines, gpu::ShaderDefine{})};
+    }
     void addColor(gpu::Format format) { *std::ranges::find(colorFormats, gpu::Format::Undefined) = format; }
     [[nodiscard]] bool isDrawn() const { return file.ends_with(".frag"); }
 

@@ -70,8 +70,14 @@ void Fields::order(const FrameView& view)
     writeGroups(next_.steps, next_.groups);
     next_.seenGroups = static_cast<uint32_t>(
         std::ranges::lower_bound(next_.groups, next_.surfaces.size(), {}, &shader::FieldGroupBlock::firstStep) - next_.groups.begin());
-    writeStructure(next_.steps, next_.structure);
+    writeStructures(next_);
     divide(next_);
+}
+
+void Fields::writeStructures(Ordered& ordered)
+{
+    writeStructure(ordered.steps, ordered.structure);
+    writeStructure(std::span(ordered.steps).first(ordered.surfaces.size()), ordered.seenStructure);
 }
 
 void Fields::divide(Ordered& ordered)
@@ -87,12 +93,16 @@ void Fields::divide(Ordered& ordered)
     }
 }
 
+bool Fields::isAsShown() const
+{
+    return next_.structure == shown_.structure && next_.seenStructure == shown_.seenStructure &&
+           std::ranges::equal(next_.drawn(), shown_.drawn(), {}, &Part::structure, &Part::structure);
+}
+
 /// A field whose structure is new stays as it was until all is there that the frame before asked for.
 bool Fields::mayShowNext(const FrameView& view)
 {
-    if (view.waitsForPipelines || next_.steps.empty())
-        return true;
-    if (next_.structure == shown_.structure && std::ranges::equal(next_.drawn(), shown_.drawn(), {}, &Part::structure, &Part::structure))
+    if (view.waitsForPipelines || next_.steps.empty() || isAsShown())
         return true;
     std::vector<FieldPipelineKey> keys;
     for (const FieldShader& shader : pipelines_.askedBefore())
@@ -101,7 +111,7 @@ bool Fields::mayShowNext(const FrameView& view)
                 return FieldPipelineKey{shader, part.structure};
             });
         else
-            keys.push_back({shader, next_.structure});
+            keys.push_back({shader, shader.meetsBones ? next_.structure : next_.seenStructure});
     return pipelines_.areThere(keys);
 }
 
@@ -130,8 +140,10 @@ FieldFrame Fields::copyShown()
     }
     return {.block = seen,
             .address = frameCopy(*device_, std::span<const shader::FieldsBlock>(&seen, 1)),
+            .groups = std::span(shown_.groups).first(shown_.seenGroups),
             .shadowing = all,
-            .structure = shown_.structure,
+            .structure = shown_.seenStructure,
+            .shadowingStructure = shown_.structure,
             .pipelines = &pipelines_};
 }
 

@@ -8,6 +8,7 @@
 #include "render/frame_view.h"
 #include "render/gpu_scene.h"
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +17,12 @@ namespace antumbra::render {
 /// Where the frame's fields lie.
 struct FieldFrame
 {
-    shader::FieldsBlock block{};     // what is seen
-    VkDeviceAddress address = 0;     // of the block on the device
-    shader::FieldsBlock shadowing{}; // and, behind it, what stands for characters
-    std::string_view structure;      // of `shadowing`: a define of what evaluates it. Empty: it is walked through. Until the next write()
+    shader::FieldsBlock block{};                     // what is seen
+    VkDeviceAddress address = 0;                     // of the block on the device
+    std::span<const shader::FieldGroupBlock> groups; // that are seen. Until the next write()
+    shader::FieldsBlock shadowing{};                 // and, behind it, what stands for characters
+    std::string_view structure;          // of `block`: a define of what evaluates it. Empty: it is walked through. Until the next write()
+    std::string_view shadowingStructure; // the same of `shadowing`
     FieldPipelines* pipelines = nullptr; // of what is made for it
     bool isLate = false;                 // not the view's: those of a frame before, as the pipelines for them are not there yet
 
@@ -57,7 +60,8 @@ private:
         std::vector<shader::FieldSurfaceBlock> surfaces; // of the first steps: what is seen
         std::vector<shader::FieldGroupBlock> groups;
         uint32_t seenGroups = 0;
-        std::string structure; // of all
+        std::string structure;     // of all,
+        std::string seenStructure; // and of what is seen
         std::vector<Part> parts;
         size_t partCount = 0; // of `parts`: the rest is kept for its memory
 
@@ -66,7 +70,9 @@ private:
     };
 
     void order(const FrameView& view);
+    static void writeStructures(Ordered& ordered);
     void divide(Ordered& ordered);
+    [[nodiscard]] bool isAsShown() const;
     [[nodiscard]] bool mayShowNext(const FrameView& view);
     [[nodiscard]] FieldFrame copyShown();
 

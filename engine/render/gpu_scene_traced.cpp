@@ -47,8 +47,7 @@ void GpuScene::makeTraced(const FrameView& view)
             makeNodes(draw.model);
         makeTracedCharacter(*characters_[draw.slot], *models_[draw.model]);
     }
-    const size_t instanceCount = view.statics.size() + view.characters.size(); // none where there are distance fields alone
-    makeTracedScene(static_cast<uint32_t>(std::max<size_t>(instanceCount, 1)));
+    makeTracedScene(static_cast<uint32_t>(view.statics.size() + view.characters.size() + 1)); // distance fields are one
 }
 
 void GpuScene::makeTracedCharacter(DeviceCharacter& character, const DeviceModel& model)

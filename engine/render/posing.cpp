@@ -146,7 +146,7 @@ void PosingSystem::declareBounds(graph::FrameGraph& graph, const FrameView& view
     });
 }
 
-Posed PosingSystem::declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene)
+Posed PosingSystem::declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene, const FieldFrame& fields)
 {
     Posed posed;
     const bool hasCharacters = !view.characters.empty();
@@ -158,9 +158,11 @@ Posed PosingSystem::declare(graph::FrameGraph& graph, const FrameView& view, Gpu
         graph.skip("skinning", kNoCharacters);
     if (view.tracesRays()) {
         declareTriangleBuilds(graph, view, scene, posed);
+        declareBoxBuilds(graph, scene, fields, posed);
         declareSceneBuild(graph, view, scene, posed);
     } else {
-        for (const std::string_view pass : {"triangle builds", "scene build"})
+        fieldBoxes_.drop();
+        for (const std::string_view pass : {"triangle builds", "box builds", "scene build"})
             graph.skip(pass, hasCharacters ? "no light is shadowed by rays" : kNoCharacters);
     }
     if (hasCharacters && view.hasEnvironment())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "graph/executor.h"
+#include "render/field_boxes.h"
 #include "render/gpu_scene.h"
 
 #include <vector>
@@ -21,23 +22,26 @@ struct Posed
 class PosingSystem
 {
 public:
-    explicit PosingSystem(gpu::Device& device) : device_(&device) {}
+    explicit PosingSystem(gpu::Device& device) : device_(&device), fieldBoxes_(device) {}
 
-    Posed declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene);
+    Posed declare(graph::FrameGraph& graph, const FrameView& view, GpuScene& scene, const FieldFrame& fields);
 
 private:
     void makePipelines(const FrameView& view, RayBackend backend);
     void choose(const FrameView& view, GpuScene& scene);
     void declareSkinning(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
     void declareTriangleBuilds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
+    void declareBoxBuilds(graph::FrameGraph& graph, const GpuScene& scene, const FieldFrame& fields, Posed& posed);
     void declareSceneBuild(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
     void recordRefits(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const;
+    void recordAccelScene(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const;
     void recordBvhScene(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const;
     void declareBounds(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed);
 
     gpu::Device* device_;
     gpu::Pipeline skinning_, boneFit_, sphereFit_, blockers_;
     gpu::Pipeline bvhRefit_, bvhScene_; // compute-bvh
+    FieldBoxes fieldBoxes_;             // ray-query
     std::vector<uint32_t> chosen_;      // into FrameView::characters: posed anew this frame
 };
 

@@ -37,13 +37,13 @@ shader::BvhPlacement placementOf(const mat4& world, const DeviceModel& model, co
                          .mask = mask}};
 }
 
-/// The frame's array of `T`, filled one by one; there is room for every object in view.
+/// The frame's array of `T`, filled one by one; there is room for every object in view and all distance fields.
 template <class T>
 class FrameArray
 {
 public:
     FrameArray(gpu::Device& device, const FrameView& view)
-        : bytes_(device.frameBytes(std::max<size_t>(view.statics.size() + view.characters.size(), 1) * sizeof(T)))
+        : bytes_(device.frameBytes((view.statics.size() + view.characters.size() + 1) * sizeof(T)))
     {
     }
 
@@ -69,19 +69,21 @@ void recordAccelBuilds(graph::Recorder& recorder, const FrameView& view, std::sp
     }
 }
 
-void recordAccelScene(graph::Recorder& recorder, gpu::Device& device, const FrameView& view, const GpuScene& scene)
+} // namespace
+
+void PosingSystem::recordAccelScene(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const
 {
-    FrameArray<VkAccelerationStructureInstanceKHR> instances(device, view);
+    FrameArray<VkAccelerationStructureInstanceKHR> instances(*device_, view);
     for (const StaticDraw& draw : view.statics)
         if (const gpu::Accel& accel = scene.rest(draw.model).accel)
             instances.append(instanceOf(draw.world, accel, shader::kMaskStatic));
     for (const CharacterDraw& draw : view.characters)
         if (const gpu::Accel& accel = scene.character(draw.slot).accel)
             instances.append(instanceOf(draw.world, accel, shader::kMaskDynamic));
+    if (const gpu::Accel& accel = fieldBoxes_.accel())
+        instances.append(instanceOf(mat4(1), accel, shader::kMaskFields));
     gpu::recordBuild(recorder.commands(), scene.scene(), instances.address(), instances.count(), scene.sceneScratch().address());
 }
-
-} // namespace
 
 void PosingSystem::recordRefits(graph::Recorder& recorder, const FrameView& view, const GpuScene& scene) const
 {
@@ -134,6 +136,16 @@ void PosingSystem::declareTriangleBuilds(graph::FrameGraph& graph, const FrameVi
     });
 }
 
+void PosingSystem::declareBoxBuilds(graph::FrameGraph& graph, const GpuScene& scene, const FieldFrame& fields, Posed& posed)
+{
+    if (fields && scene.backend() == RayBackend::RayQuery) {
+        fieldBoxes_.declare(graph, fields, posed.scene);
+        return;
+    }
+    fieldBoxes_.drop();
+    graph.skip("box builds", fields ? "compute-bvh takes boxes as they are" : "no SDFPrimitive in the scene");
+}
+
 void PosingSystem::declareSceneBuild(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)
 {
     const bool usesBvh = scene.backend() == RayBackend::ComputeBvh;
@@ -145,7 +157,7 @@ void PosingSystem::declareSceneBuild(graph::FrameGraph& graph, const FrameView& 
         if (usesBvh)
             recordBvhScene(recorder, view, scene);
         else
-            recordAccelScene(recorder, *device_, view, scene);
+            recordAccelScene(recorder, view, scene);
     });
 }
 

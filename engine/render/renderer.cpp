@@ -151,9 +151,9 @@ void Renderer::declare(const FrameView& view, const gpu::Image* window)
     graph::BufferRef counters = counters_.declareClear(graph_);
 
     const Baked baked = prt_.declare(graph_, view, frame, blocks_.newest());
-    const Posed posed = posing_.declare(graph_, view, scene_);
     const FieldFrame fields = gbuffer_.writeFields(view);
     hasLateFields_ = fields.isLate;
+    const Posed posed = posing_.declare(graph_, view, scene_, fields);
     const GBuffer g = gbuffer_.declare(graph_, view, frame, scene_, fields, baked, posed, extent(),
                                        {.all = captures_ != 0, .steps = isCaptured(Aov::Steps)});
     const Grounds grounds = ground_.declare(graph_, view, frame, scene_, baked, posed);

@@ -10,32 +10,6 @@ struct FieldHit
     uint steps;
 };
 
-// Where a ray is in the box about a group and what it melts with: from x to y metres; nowhere where x is not less than y.
-vec2 spanInGroup(FieldGroupBlock group, vec3 origin, vec3 direction)
-{
-    vec3 inverse = 1.0 / mix(direction, vec3(1.0e-9), lessThan(abs(direction), vec3(1.0e-9))); // finite: 0 times infinity is no number
-    vec3 middle = (group.centre - origin) * inverse, reach = (group.halfEdges + group.melt / group.slope) * abs(inverse);
-    vec3 enters = middle - reach, leaves = middle + reach;
-    return vec2(max(enters.x, max(enters.y, enters.z)), min(leaves.x, min(leaves.y, leaves.z)));
-}
-
-// Looks at the groups alone that the ray meets, and narrows its way to where they are.
-FieldsBlock fieldsAlong(FieldsBlock fields, vec3 origin, vec3 direction, inout vec2 way)
-{
-    vec2 narrowed = vec2(way.y, way.x);
-    uvec2 near = uvec2(0u);
-    for (uint g = 0u; g < fields.groupCount; ++g) {
-        vec2 span = spanInGroup(fieldGroup(fields, g), origin, direction);
-        span = vec2(max(span.x, way.x), min(span.y, way.y));
-        bool isMet = span.x < span.y;
-        near |= isMet ? setOfGroup(g) : uvec2(0u);
-        narrowed = isMet ? vec2(min(narrowed.x, span.x), max(narrowed.y, span.y)) : narrowed;
-    }
-    way = narrowed;
-    fields.skipped |= ~near;
-    return fields;
-}
-
 // Sphere tracing (Hart 1996) by steps longer than what is clear, taken back where two balls in a row do not meet (Keinert et al. 2014). A ray
 // that comes as near as `width` a metre of its way has met the surface.
 FieldHit traceField(FieldsBlock fields, vec3 origin, vec3 direction, float from, float to, float width)

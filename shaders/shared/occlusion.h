@@ -9,7 +9,8 @@ const uint kCullBones = 3u;
 
 const uint kMaskStatic = 1u;
 const uint kMaskDynamic = 2u;
-const uint kMaskAll = 3u;
+const uint kMaskAll = 3u; // triangles
+const uint kMaskFields = 4u; // boxes about groups of steps
 
 // Pixels that trace their rays together.
 const uint kTraceGroupWidth = 16u;

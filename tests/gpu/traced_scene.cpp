@@ -22,6 +22,19 @@ gpu::Accel built(gpu::Device& device, VkAccelerationStructureTypeKHR type, const
     return accel;
 }
 
+VkAccelerationStructureInstanceKHR instanceOf(const mat4& worldFromLocal, const gpu::Accel& accel, uint32_t mask)
+{
+    VkAccelerationStructureInstanceKHR instance{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            instance.transform.matrix[row][column] = worldFromLocal[column][row];
+    instance.instanceCustomIndex = mask & 0xffffffu;
+    instance.mask = mask & 0xffu;
+    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+    instance.accelerationStructureReference = accel.address();
+    return instance;
+}
+
 } // namespace
 
 TracedScene::TracedScene(gpu::Device& device, render::RayBackend backend, std::vector<PlacedMesh>& meshes)
@@ -47,15 +60,24 @@ void TracedScene::buildAccels(gpu::Device& device, const std::vector<PlacedMesh>
                                        [&](VkCommandBuffer commands, const gpu::Accel& target, VkDeviceAddress scratch) {
                                            gpu::recordBuild(commands, target, input, false, scratch);
                                        }));
-        VkAccelerationStructureInstanceKHR& instance = instances.emplace_back();
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 4; ++column)
-                instance.transform.matrix[row][column] = placed.worldFromLocal[column][row];
-        instance.instanceCustomIndex = placed.mask & 0xffffffu;
-        instance.mask = placed.mask & 0xffu;
-        instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-        instance.accelerationStructureReference = accel.address();
+        instances.push_back(instanceOf(placed.worldFromLocal, accel, placed.mask));
     }
+    buildScene(device, instances);
+}
+
+TracedScene::TracedScene(gpu::Device& device, const std::vector<VkAabbPositionsKHR>& boxes)
+{
+    const gpu::BoxInput input{keep(buffers_, device, boxes), static_cast<uint32_t>(boxes.size())};
+    const gpu::Accel& accel =
+        accels_.emplace_back(built(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, gpu::boxesSizes(device, input.boxCount),
+                                   [&](VkCommandBuffer commands, const gpu::Accel& target, VkDeviceAddress scratch) {
+                                       gpu::recordBuild(commands, target, input, scratch);
+                                   }));
+    buildScene(device, {instanceOf(mat4{1}, accel, shader::kMaskFields)});
+}
+
+void TracedScene::buildScene(gpu::Device& device, const std::vector<VkAccelerationStructureInstanceKHR>& instances)
+{
     const VkDeviceAddress uploaded = keep(buffers_, device, instances);
     const auto count = static_cast<uint32_t>(instances.size());
     address_ = accels_

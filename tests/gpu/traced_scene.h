@@ -1,4 +1,4 @@
-// A few meshes made ready for rays by either back-end, without renderer and scene.
+// A few meshes made ready for rays by either back-end, or boxes by ray query, without renderer and scene.
 #pragma once
 
 #include "gpu/accel.h"
@@ -19,11 +19,15 @@ class TracedScene
 public:
     TracedScene(gpu::Device& device, render::RayBackend backend, std::vector<PlacedMesh>& meshes);
 
+    /// As distance fields, kMaskFields; never of none.
+    TracedScene(gpu::Device& device, const std::vector<VkAabbPositionsKHR>& boxes);
+
     /// As OcclusionTrace::scene takes it.
     [[nodiscard]] VkDeviceAddress address() const { return address_; }
 
 private:
     void buildAccels(gpu::Device& device, const std::vector<PlacedMesh>& meshes);
+    void buildScene(gpu::Device& device, const std::vector<VkAccelerationStructureInstanceKHR>& instances);
     void buildBvhs(gpu::Device& device, const std::vector<PlacedMesh>& meshes);
 
     std::vector<gpu::Buffer> buffers_;

@@ -168,6 +168,31 @@ TEST_F(FieldPictures, HideLightOfTheEnvironmentWhereThereIsNoMeshToo)
     expectSound(shown);
 }
 
+// Rays of ray-query find fields by their boxes in the acceleration structure, those of compute-bvh ask each.
+TEST_F(FieldPictures, AreMetByRaysOfBothBackEnds)
+{
+    scene::SceneFile scene = emptyScene();
+    for (int i = 0; i < 6; ++i)
+        scene.entities.push_back(fieldBall({0.5f * static_cast<float>(i % 3) - 0.5f, 0.3f + 0.5f * static_cast<float>(i / 3), 0}, 0.2f));
+    Shown shown(device(), scene);
+    const auto occludedBy = [&](const Backend& backend) {
+        shown.set("occlusion.backend", backend.name);
+        const scene::ImageF occluded = shown.capture(Aov::Occluded);
+        const bool hasBoxes = backend.backend == render::RayBackend::RayQuery && device().info().rayQuery;
+        EXPECT_EQ(std::ranges::count(stepsOf(shown), "box builds"), hasBoxes ? 1 : 0) << backend.name;
+        return occluded;
+    };
+    const scene::ImageF queried = occludedBy(kRayQuery), asked = occludedBy(kComputeBvh);
+    const std::vector<size_t> surface = surfaceOf(shown.capture(Aov::Depth));
+    EXPECT_GT(meanOf(queried, surface), 0.01 * meanOf(shown.capture(Aov::Unshadowed), surface));
+    EXPECT_EQ(queried.values, asked.values);
+    expectSound(shown);
+    shown.set("occlusion.backend", "ray-query");
+    shown.view().fieldSteps.clear();
+    shown.draw();
+    EXPECT_THAT(stepsOf(shown), Not(Contains("box builds")));
+}
+
 // What a new structure takes is made beside the frames: these show the fields as they were, then as they are, and nothing between.
 TEST_F(FieldPictures, StayUntilWhatANewStructureTakesIsMade)
 {

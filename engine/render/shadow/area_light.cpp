@@ -105,8 +105,8 @@ void AreaLightSystem::declareShade(graph::Pass& pass, const LitFrame& frame, con
     const gpu::Pipeline& pipeline = pipelines_.shade({.shadow = range.shadow,
                                                       .isGlossy = frame.isGlossy,
                                                       .backend = isTraced ? frame.scene->backend() : RayBackend::Auto,
-                                                      .hasFields = isTraced && !frame.view->fieldSteps.empty(),
-                                                      .sizes = bodies_.sizes()});
+                                                      .sizes = bodies_.sizes()},
+                                                     *frame.fields);
     const VkDeviceAddress traced = isTraced ? frame.scene->tracedAddress() : 0;
     pass.record([this, &pipeline, area = frame.area, slot = frame.slot, scale = frame.pixels.scale, g, range, shading, tiles, counters,
                  traced, seen = seenPastFields, knobs = frame.view->knobs.area](graph::Recorder& recorder) {
@@ -148,7 +148,7 @@ AreaLit AreaLightSystem::declareReference(graph::FrameGraph& graph, const LitFra
     const graph::ImageDesc desc{.format = kMeanFormat, .extent = extent};
     const graph::History diffuse = graph.history("area reference, diffuse", desc, diffuseHistory_);
     const graph::History specular = frame.isGlossy ? graph.history("area reference, specular", desc, specularHistory_) : graph::History{};
-    const uint64_t now = fingerprintOf(*frame.view, frame.scene->backend(), extent, frame.hasLateFields);
+    const uint64_t now = fingerprintOf(*frame.view, frame.scene->backend(), extent, frame.fields->isLate);
     if (now != seen_ || !diffuse.valid)
         referenceFrames_ = 0;
     seen_ = now;
@@ -208,13 +208,13 @@ AreaLit AreaLightSystem::declare(graph::FrameGraph& graph, const FrameView& view
                          .scene = &scene,
                          .g = &g,
                          .posed = &posed,
+                         .fields = &fields,
                          .area = bodies_.write(view, tileCount.x, fields.address),
                          .pixels = {.extent = (extent + scale - 1u) / scale, .scale = scale},
                          .slot = slot,
-                         .isGlossy = static_cast<bool>(g.material),
-                         .hasLateFields = fields.isLate};
+                         .isGlossy = static_cast<bool>(g.material)};
     prepareTables(frame.isGlossy);
-    seenPastFields_ = declareFieldShadow(graph, frame, fields, bodies_.ranges(), counters);
+    seenPastFields_ = declareFieldShadow(graph, frame, bodies_.ranges(), counters);
     if (view.probedPixel)
         probe_.declare(graph, slot, g, frame.area, *view.probedPixel, view.knobs.area.planes);
     if (std::ranges::any_of(bodies_.ranges(), isTiled, &AreaLightRange::shadow))

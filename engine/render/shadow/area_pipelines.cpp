@@ -72,6 +72,21 @@ std::vector<gpu::ShaderDefine> sizeDefines(const AreaSizes& sizes)
             {"AREA_SIGNED", occluders}};
 }
 
+/// Of rays, which know no sizes.
+const gpu::Pipeline& throughFields(const AreaPipelines::Variant& variant, const FieldFrame& fields)
+{
+    FieldShader shader{.file = "area_shade.comp"};
+    shader.define("SHADOW", shaderShadowOf(variant.shadow));
+    shader.define("FIELDS");
+    if (variant.isGlossy)
+        shader.define("GLOSSY");
+    if (variant.shadow == LightShadow::Reference)
+        shader.define("REFERENCE");
+    if (variant.backend == RayBackend::ComputeBvh)
+        shader.define("COMPUTE_BVH");
+    return fields.pipelines->of(shader, fields.structure);
+}
+
 } // namespace
 
 uint32_t threadBytes(const AreaSizes& sizes)
@@ -96,8 +111,10 @@ bool isShare(LightShadow shadow)
     return shadow == LightShadow::Ratio || shadow == LightShadow::Article || shadow == LightShadow::TwoSided;
 }
 
-const gpu::Pipeline& AreaPipelines::shade(const Variant& variant)
+const gpu::Pipeline& AreaPipelines::shade(const Variant& variant, const FieldFrame& fields)
 {
+    if (traces(variant.shadow) && fields)
+        return throughFields(variant, fields);
     const int shadow = shaderShadowOf(variant.shadow);
     const bool hasTriangles = variant.shadow == LightShadow::Triangles, isReference = variant.shadow == LightShadow::Reference;
     const AreaSizes sizes = roomFor(traces(variant.shadow) ? AreaSizes{}
@@ -106,20 +123,21 @@ const gpu::Pipeline& AreaPipelines::shade(const Variant& variant)
                                     device_->info().isCpu ? std::numeric_limits<uint32_t>::max() : kMostThreadBytes);
     const auto found = std::ranges::find_if(made_, [&](const Made& made) {
         return made.shadow == shadow && made.isReference == isReference && made.hasTriangles == hasTriangles &&
-               made.isGlossy == variant.isGlossy && made.hasFields == variant.hasFields && made.backend == variant.backend &&
-               made.sizes == sizes;
+               made.isGlossy == variant.isGlossy && made.backend == variant.backend && made.sizes == sizes;
     });
     if (found != made_.end())
         return found->pipeline;
     std::vector<gpu::ShaderDefine> defines = sizeDefines(sizes);
     defines.push_back({"SHADOW", shadow});
-    const std::pair<bool, std::string_view> parts[] = {
-        {sizes.isPlanar, "PLANAR_LIGHTS"}, {variant.isGlossy, "GLOSSY"}, {hasTriangles, "TRIANGLES"},
-        {variant.hasFields, "FIELDS"},     {isReference, "REFERENCE"},   {variant.backend == RayBackend::ComputeBvh, "COMPUTE_BVH"}};
+    const std::pair<bool, std::string_view> parts[] = {{sizes.isPlanar, "PLANAR_LIGHTS"},
+                                                       {variant.isGlossy, "GLOSSY"},
+                                                       {hasTriangles, "TRIANGLES"},
+                                                       {isReference, "REFERENCE"},
+                                                       {variant.backend == RayBackend::ComputeBvh, "COMPUTE_BVH"}};
     for (const auto& [isPart, define] : parts)
         if (isPart)
             defines.push_back({define});
-    made_.push_back({shadow, isReference, hasTriangles, variant.isGlossy, variant.hasFields, variant.backend, sizes,
+    made_.push_back({shadow, isReference, hasTriangles, variant.isGlossy, variant.backend, sizes,
                      computePipeline(*device_, "area_shade.comp", defines)});
     return made_.back().pipeline;
 }

@@ -1,6 +1,7 @@
 // The pipelines that shade by area lights, each made when first asked for, for what a frame has: nobody pays for the general case.
 #pragma once
 
+#include "render/fields.h"
 #include "render/shadow/area_bodies.h"
 
 #include <deque>
@@ -28,17 +29,16 @@ public:
         scene::LightShadow shadow;
         bool isGlossy;
         RayBackend backend; // Auto for what traces none
-        bool hasFields;     // in the way of rays
         AreaSizes sizes;    // of the frame; what traces rays does not depend on them
     };
-    /// Stays where it is as others are made: passes hold on to it.
-    const gpu::Pipeline& shade(const Variant& variant);
+    /// Rays meet fields, which others leave to shares. Stays where it is as others are made: passes hold on to it.
+    const gpu::Pipeline& shade(const Variant& variant, const FieldFrame& fields);
 
 private:
     struct Made
     {
         int shadow; // as the shader counts them
-        bool isReference, hasTriangles, isGlossy, hasFields;
+        bool isReference, hasTriangles, isGlossy;
         RayBackend backend;
         AreaSizes sizes;
         gpu::Pipeline pipeline;

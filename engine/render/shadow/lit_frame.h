@@ -30,11 +30,11 @@ struct LitFrame
     const GpuScene* scene;
     const GBuffer* g;
     const Posed* posed;
+    const FieldFrame* fields;
     VkDeviceAddress area; // AreaBlock
     LitPixels pixels;
     uint32_t slot; // of the FrameBlock
     bool isGlossy;
-    bool hasLateFields; // FieldFrame::isLate
 };
 
 } // namespace antumbra::render

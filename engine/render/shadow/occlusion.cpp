@@ -12,23 +12,6 @@ constexpr gpu::Format kTracedFormat = gpu::Format::Rgba32Uint; // as in lib/trac
 
 } // namespace
 
-const gpu::Pipeline& OcclusionSystem::tracePipeline(RayBackend backend, Culling culling, bool isLocal, bool hasFields)
-{
-    const bool usesBvh = backend == RayBackend::ComputeBvh;
-    gpu::Pipeline& trace = trace_[(hasFields ? 4 : 0) + (isLocal ? 2 : 0) + (usesBvh ? 1 : 0)][static_cast<size_t>(culling)];
-    if (!trace) {
-        std::vector<gpu::ShaderDefine> defines{{"CULLING", static_cast<int>(culling)}};
-        if (usesBvh)
-            defines.push_back({"COMPUTE_BVH"});
-        if (isLocal)
-            defines.push_back({"LOCAL_LIGHT"});
-        if (hasFields)
-            defines.push_back({"FIELDS"});
-        trace = computePipeline(*device_, "occlusion_trace.comp", defines);
-    }
-    return trace;
-}
-
 void OcclusionSystem::prepare(const OcclusionKnobs& knobs)
 {
     if (knobs.filter > 0 && !filter_)
@@ -60,7 +43,8 @@ graph::ImageRef OcclusionSystem::declareTrace(graph::FrameGraph& graph, const Fr
     const graph::ImageRef traced =
         pass.create("occluded, traced", {.format = kTracedFormat, .like = g.depth, .scale = 1.0f / pixelScale}, Use::StorageWrite);
 
-    const gpu::Pipeline& pipeline = tracePipeline(scene.backend(), knobs.culling, static_cast<bool>(baked), static_cast<bool>(fields));
+    const gpu::Pipeline& pipeline = trace_.of(
+        {.backend = scene.backend(), .culling = knobs.culling, .isReference = false, .isLocal = static_cast<bool>(baked)}, fields);
     pass.record([this, &view, &scene, &pipeline, frame, fields = fields.address, grounds, g, traced, pixelScale,
                  counted = counters](graph::Recorder& recorder) {
         recorder.dispatch(pipeline,

@@ -5,8 +5,7 @@
 
 #include "render/gbuffer.h"
 #include "render/shadow/ground.h"
-
-#include <array>
+#include "render/shadow/occlusion_pipelines.h"
 
 namespace antumbra::render {
 
@@ -20,13 +19,12 @@ struct Traced
 class OcclusionSystem
 {
 public:
-    explicit OcclusionSystem(gpu::Device& device) : device_(&device) {}
+    explicit OcclusionSystem(gpu::Device& device) : device_(&device), trace_(device) {}
 
     Traced declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene, const FieldFrame& fields,
                    const Baked& baked, const Grounds& grounds, const GBuffer& g, const Posed& posed, graph::BufferRef& counters);
 
 private:
-    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, Culling culling, bool isLocal, bool hasFields);
     void prepare(const OcclusionKnobs& knobs);
     graph::ImageRef declareTrace(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
                                  const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g, const Posed& posed,
@@ -35,8 +33,7 @@ private:
                                   graph::ImageRef traced);
 
     gpu::Device* device_;
-    // By backend, whether light is local and whether there are fields, and by Culling, each made when first asked for.
-    std::array<std::array<gpu::Pipeline, 4>, 8> trace_;
+    OcclusionPipelines trace_;
     gpu::Pipeline filter_;
     gpu::Buffer samples_;
     uint32_t sampleCount_ = 0;

@@ -19,23 +19,6 @@ uint32_t wantedSamples(const Knobs& knobs)
 
 } // namespace
 
-const gpu::Pipeline& ReferenceSystem::tracePipeline(RayBackend backend, bool isLocal, bool hasFields)
-{
-    const bool usesBvh = backend == RayBackend::ComputeBvh;
-    gpu::Pipeline& trace = trace_[(hasFields ? 4 : 0) + (usesBvh ? 2 : 0) + (isLocal ? 1 : 0)];
-    if (!trace) {
-        std::vector<gpu::ShaderDefine> defines{{"CULLING", 0}, {"REFERENCE"}};
-        if (usesBvh)
-            defines.push_back({"COMPUTE_BVH"});
-        if (isLocal)
-            defines.push_back({"LOCAL_LIGHT"});
-        if (hasFields)
-            defines.push_back({"FIELDS"});
-        trace = computePipeline(*device_, "occlusion_trace.comp", defines);
-    }
-    return trace;
-}
-
 graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
                                          const FieldFrame& fields, const Baked& baked, const Grounds& grounds, const GBuffer& g,
                                          const Posed& posed)
@@ -49,7 +32,8 @@ graph::ImageRef ReferenceSystem::declare(graph::FrameGraph& graph, const FrameVi
         isActive_ = false;
         return {};
     }
-    const gpu::Pipeline& trace = tracePipeline(scene.backend(), static_cast<bool>(baked), static_cast<bool>(fields));
+    const gpu::Pipeline& trace =
+        trace_.of({.backend = scene.backend(), .culling = Culling::None, .isReference = true, .isLocal = static_cast<bool>(baked)}, fields);
     if (!accumulate_)
         accumulate_ = computePipeline(*device_, "reference_accumulate.comp");
     const uvec2 extent = graph.extent(g.depth);

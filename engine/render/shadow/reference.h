@@ -3,8 +3,8 @@
 
 #include "render/gbuffer.h"
 #include "render/shadow/ground.h"
+#include "render/shadow/occlusion_pipelines.h"
 
-#include <array>
 #include <optional>
 
 namespace antumbra::render {
@@ -12,7 +12,7 @@ namespace antumbra::render {
 class ReferenceSystem
 {
 public:
-    explicit ReferenceSystem(gpu::Device& device) : device_(&device) {}
+    explicit ReferenceSystem(gpu::Device& device) : device_(&device), trace_(device) {}
 
     /// The occluded irradiance so far, W/m^2; absent unless knobs.reference.samples or the view asks for it.
     graph::ImageRef declare(graph::FrameGraph& graph, const FrameView& view, uint32_t frame, const GpuScene& scene,
@@ -21,10 +21,8 @@ public:
     [[nodiscard]] std::optional<uint32_t> samples() const { return isActive_ ? std::optional(frames_ * samplesAFrame_) : std::nullopt; }
 
 private:
-    [[nodiscard]] const gpu::Pipeline& tracePipeline(RayBackend backend, bool isLocal, bool hasFields);
-
     gpu::Device* device_;
-    std::array<gpu::Pipeline, 8> trace_; // by backend, whether light is local and whether there are fields, each made when first asked for
+    OcclusionPipelines trace_;
     gpu::Pipeline accumulate_;
     graph::HistorySlot history_;
     uint64_t seen_ = 0;

@@ -53,22 +53,26 @@ BoneLights boneLightsOf(const FieldFrame& fields, std::span<const AreaLightRange
     return lights;
 }
 
-const gpu::Pipeline& pipelineFor(const LitFrame& frame, const FieldFrame& fields, const BoneLights& byBones)
+const gpu::Pipeline& pipelineFor(const LitFrame& frame, const BoneLights& byBones)
 {
+    const FieldFrame& fields = *frame.fields;
     const uint32_t method = methodOf(frame.view->knobs.sdf.shadow);
     FieldShader shader{.file = "field_shade.comp"};
     shader.define("METHOD", static_cast<int>(method));
     if (method == shader::kFieldSubCones && !std::ranges::all_of(frame.view->areaLights, &AreaLightDraw::isSphere))
         shader.define("OUTLINES");
-    if (byBones)
-        shader.define("BONES");
+    if (!byBones)
+        return fields.pipelines->of(shader, fields.structure);
+    shader.define("BONES");
+    shader.meetsBones = true;
     // Written out, all lights meet the same steps.
-    return fields.pipelines->of(shader, !fields.hasBones() || byBones.isAll ? fields.structure : "");
+    return fields.pipelines->of(shader, byBones.isAll ? fields.shadowingStructure : "");
 }
 
 /// But for what the graph places.
-shader::FieldShade shadeOf(const LitFrame& frame, const FieldFrame& fields, const BoneLights& byBones)
+shader::FieldShade shadeOf(const LitFrame& frame, const BoneLights& byBones)
 {
+    const FieldFrame& fields = *frame.fields;
     const Knobs& knobs = frame.view->knobs;
     return {.fields = byBones ? fields.shadowing : fields.block,
             .area = frame.area,
@@ -89,10 +93,11 @@ shader::FieldShade shadeOf(const LitFrame& frame, const FieldFrame& fields, cons
 
 void skipFieldShadow(graph::FrameGraph& graph, std::string_view reason) { graph.skip("sdf shadow", reason); }
 
-graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
-                                    std::span<const AreaLightRange> ranges, graph::BufferRef& counters)
+graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& frame, std::span<const AreaLightRange> ranges,
+                                    graph::BufferRef& counters)
 {
     const Knobs& knobs = frame.view->knobs;
+    const FieldFrame& fields = *frame.fields;
     const BoneLights byBones = boneLightsOf(fields, ranges);
     const bool hasBones = static_cast<bool>(byBones);
     if ((!fields && !hasBones) || knobs.sdf.shadow == FieldShadow::None || std::ranges::all_of(ranges, traces, &AreaLightRange::shadow)) {
@@ -109,8 +114,8 @@ graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& fr
     const uint32_t lightCount = ranges.back().end;
     const graph::BufferRef seen =
         pass.createBuffer("seen past fields", lightCount * frame.pixels.count() * sizeof(float), Use::StorageWrite);
-    pass.record([&pipeline = pipelineFor(frame, fields, byBones), shade = shadeOf(frame, fields, byBones), extent = frame.pixels.extent,
-                 g = *frame.g, seen, counted = counters, hasBones](graph::Recorder& recorder) {
+    pass.record([&pipeline = pipelineFor(frame, byBones), shade = shadeOf(frame, byBones), extent = frame.pixels.extent, g = *frame.g, seen,
+                 counted = counters, hasBones](graph::Recorder& recorder) {
         shader::FieldShade made = shade;
         made.counters = recorder.address(counted);
         made.seen = recorder.address(seen);

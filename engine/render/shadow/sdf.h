@@ -10,8 +10,8 @@ namespace antumbra::render {
 
 /// float[lights][pixels], the share of each light of the frame's AreaBlock that is seen; absent without fields, and where rays find all of
 /// it.
-graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& frame, const FieldFrame& fields,
-                                    std::span<const AreaLightRange> ranges, graph::BufferRef& counters);
+graph::BufferRef declareFieldShadow(graph::FrameGraph& graph, const LitFrame& frame, std::span<const AreaLightRange> ranges,
+                                    graph::BufferRef& counters);
 /// Without area lights.
 void skipFieldShadow(graph::FrameGraph& graph, std::string_view reason);
 
