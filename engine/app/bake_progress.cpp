@@ -47,7 +47,7 @@ std::string describe(const bake::BakeProgress& progress)
     constexpr size_t kWidth = 30;
     const double share = progress.raysAll > 0 ? static_cast<double>(progress.raysDone) / static_cast<double>(progress.raysAll) : 1;
     const auto filled = static_cast<size_t>(share * kWidth);
-    const std::string bar =
+    std::string bar =
         fmt::format("[{:=<{}}{: <{}}] {:3.0f} %  {}", "", filled, "", kWidth - filled, std::floor(100 * share), progress.stage);
     if (progress.raysPerSecond == 0)
         return bar;

@@ -34,7 +34,7 @@ private:
     [[noreturn]] void refuseUnreadable() const;
 
     template <class T>
-    T attribute(const std::string& name, OIIO::TypeDesc type) const;
+    T attribute(const std::string& name, const OIIO::TypeDesc& type) const;
     uint64_t hashAttribute(const char* name) const;
     BakeSettings readSettings() const;
     Grid readGrid() const;
@@ -69,7 +69,7 @@ void BakeReader::refuseUnreadable() const
 }
 
 template <class T>
-T BakeReader::attribute(const std::string& name, OIIO::TypeDesc type) const
+T BakeReader::attribute(const std::string& name, const OIIO::TypeDesc& type) const
 {
     T value;
     if (!spec_.getattribute(name, type, &value))

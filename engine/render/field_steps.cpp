@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace antumbra::render {
 
@@ -307,7 +306,8 @@ void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBl
         groups.back().takesAway |= takesAway(steps[i]) ? 1u : 0u;
     }
     float melt = 0;
-    for (FieldGroupBlock& group : std::views::reverse(groups)) {
+    for (size_t g = groups.size(); g-- > 0;) { // what melts later counts for those before it
+        FieldGroupBlock& group = groups[g];
         const std::span<const FieldStepBlock> own = steps.subspan(group.firstStep, group.endStep - group.firstStep);
         for (const FieldStepBlock& step : own)
             melt = std::max(melt, step.blend);

@@ -76,8 +76,8 @@ void Fields::order(const FrameView& view)
 
 void Fields::writeStructures(Ordered& ordered)
 {
-    writeStructure(ordered.steps, ordered.structure);
-    writeStructure(std::span(ordered.steps).first(ordered.surfaces.size()), ordered.seenStructure);
+    writeStructure(std::span(ordered.steps).first(ordered.surfaces.size()), ordered.structure);
+    writeStructure(ordered.steps, ordered.shadowingStructure);
 }
 
 void Fields::divide(Ordered& ordered)
@@ -95,7 +95,7 @@ void Fields::divide(Ordered& ordered)
 
 bool Fields::isAsShown() const
 {
-    return next_.structure == shown_.structure && next_.seenStructure == shown_.seenStructure &&
+    return next_.structure == shown_.structure && next_.shadowingStructure == shown_.shadowingStructure &&
            std::ranges::equal(next_.drawn(), shown_.drawn(), {}, &Part::structure, &Part::structure);
 }
 
@@ -111,7 +111,7 @@ bool Fields::mayShowNext(const FrameView& view)
                 return FieldPipelineKey{shader, part.structure};
             });
         else
-            keys.push_back({shader, shader.meetsBones ? next_.structure : next_.seenStructure});
+            keys.push_back({shader, shader.meetsBones ? next_.shadowingStructure : next_.structure});
     return pipelines_.areThere(keys);
 }
 
@@ -142,8 +142,8 @@ FieldFrame Fields::copyShown()
             .address = frameCopy(*device_, std::span<const shader::FieldsBlock>(&seen, 1)),
             .groups = std::span(shown_.groups).first(shown_.seenGroups),
             .shadowing = all,
-            .structure = shown_.seenStructure,
-            .shadowingStructure = shown_.structure,
+            .structure = shown_.structure,
+            .shadowingStructure = shown_.shadowingStructure,
             .pipelines = &pipelines_};
 }
 

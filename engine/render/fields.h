@@ -60,8 +60,8 @@ private:
         std::vector<shader::FieldSurfaceBlock> surfaces; // of the first steps: what is seen
         std::vector<shader::FieldGroupBlock> groups;
         uint32_t seenGroups = 0;
-        std::string structure;     // of all,
-        std::string seenStructure; // and of what is seen
+        std::string structure;          // of what is seen,
+        std::string shadowingStructure; // and of all
         std::vector<Part> parts;
         size_t partCount = 0; // of `parts`: the rest is kept for its memory
 

@@ -97,7 +97,7 @@ void GBufferSystem::listDraws(const FrameView& view, const GpuScene& scene, uvec
         ++object;
     }
     draws_.reserve(most);
-    std::ranges::sort(draws_);
+    std::ranges::sort(draws_, {}, &Draw::place);
 }
 
 void GBufferSystem::prepareFields(const FrameView& view, bool keepsSteps)

@@ -9,6 +9,7 @@
 #include "render/shadow/prt.h"
 
 #include <array>
+#include <tuple>
 
 namespace antumbra::render {
 
@@ -49,7 +50,7 @@ private:
         uint32_t object; // into FrameView::statics, and on into FrameView::characters
         uint32_t cluster;
 
-        friend auto operator<=>(const Draw&, const Draw&) = default;
+        [[nodiscard]] auto place() const { return std::tuple(depthView, object, cluster); } // among all
     };
 
     /// Where an object's first term comes from.

@@ -143,7 +143,7 @@ void PosingSystem::declareBoxBuilds(graph::FrameGraph& graph, const GpuScene& sc
         return;
     }
     fieldBoxes_.drop();
-    graph.skip("box builds", fields ? "compute-bvh takes boxes as they are" : "no SDFPrimitive in the scene");
+    graph.skip("box builds", fields ? "compute-bvh asks each group of steps" : "no SDFPrimitive in the scene");
 }
 
 void PosingSystem::declareSceneBuild(graph::FrameGraph& graph, const FrameView& view, const GpuScene& scene, Posed& posed)

@@ -15,8 +15,8 @@ struct BodyPart
 {
     ConvexBody body;
     uint32_t joint = kNoIndex;
-    bool isHollow = false;    // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
-    float margin = 0;         // metres, in the space of the body
+    bool isHollow = false; // stands for a surface that lies in it, or up to `margin` outside: hides nothing from there
+    float margin = 0;      // metres, in the space of the body
 };
 
 struct Assets

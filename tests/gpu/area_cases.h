@@ -26,7 +26,7 @@ struct AreaCategory
 {
     std::string_view name;
     app::AreaProblem (*make)(RandomInputs&);
-    std::string_view jump = ""; // what a jitter may cross there, so that a share jumps; empty: nothing
+    std::string_view jump{}; // what a jitter may cross there, so that a share jumps; empty: nothing
     double tolerance = kTolerance;
     double jitter = 1e-6; // of the problem's size
     Jitter jitterKind = Jitter::Vertices;

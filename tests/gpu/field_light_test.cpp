@@ -8,7 +8,6 @@
 namespace antumbra {
 namespace {
 
-using scene::SDFPrimitive;
 using scene::SDFShape;
 
 struct LightAsk
