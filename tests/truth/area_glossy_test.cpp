@@ -145,7 +145,7 @@ TEST_P(AreaGlossy, ErrorsAgainstGgxAreThoseOfTheFit)
 }
 
 INSTANTIATE_TEST_SUITE_P(Truth, AreaGlossy, testing::Values(0.2f, 0.4f, 0.6f, 0.8f, 1.0f),
-                         [](const auto& test) { return "Roughness" + std::to_string(static_cast<int>(10 * test.param + 0.5f)); });
+                         [](const auto& test) { return "Roughness" + std::to_string(std::lround(10 * test.param)); });
 
 } // namespace
 } // namespace antumbra::truth
