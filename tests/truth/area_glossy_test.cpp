@@ -53,7 +53,7 @@ Reflected reflected(const dvec3& point, const dvec3& eye, double roughness)
     const double amplitude = kMetal * texel.amplitude.x + (1 - kMetal) * texel.amplitude.y;
     Reflected sum;
     for (int i = 0; i < kSide * kSide; ++i) {
-        const glm::dvec2 share((i % kSide + 0.5) / kSide - 0.5, (i / kSide + 0.5) / kSide - 0.5);
+        const glm::dvec2 share = (glm::dvec2(glm::ivec2(i % kSide, i / kSide)) + 0.5) / double{kSide} - 0.5;
         const dvec3 on = dvec3(kLampAt) + kLampSide * dvec3(share.x, 0, share.y), to = on - point;
         if (isBlocked(point, on))
             continue;
