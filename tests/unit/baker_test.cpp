@@ -21,7 +21,7 @@ using testing::HasSubstr;
 void addWall(StaticScene& scene, vec3 middle, vec3 right, vec3 up, uint32_t slot)
 {
     const auto first = static_cast<uint32_t>(scene.positions.size());
-    const vec2 corner(static_cast<float>(slot % 3) / 3, static_cast<float>(slot / 3) / 2);
+    const vec2 corner = vec2(uvec2(slot % 3, slot / 3)) / vec2(3, 2);
     for (const vec2 at : {vec2{0, 0}, vec2{1, 0}, vec2{1, 1}, vec2{0, 1}}) {
         scene.positions.push_back(middle + (2 * at.x - 1) * right + (2 * at.y - 1) * up);
         scene.normals.push_back(glm::cross(right, up));
@@ -284,7 +284,7 @@ TEST(BakeEstimate, FindsTheDensityThatFits)
     EXPECT_LT(density, 120);
     EXPECT_GT(density, 60);
     const auto side = static_cast<uint32_t>(density / 120 * 900);
-    EXPECT_NEAR(static_cast<double>(estimate(openRoom({side, side * 2 / 3}), settings).bytes), static_cast<double>(needed) * 2 / 3,
+    EXPECT_NEAR(static_cast<double>(estimate(openRoom(side * uvec2(3, 2) / 3u), settings).bytes), static_cast<double>(needed) * 2 / 3,
                 0.02 * static_cast<double>(needed));
     EXPECT_FALSE(densityWithin(room, settings, 1 << 20).has_value());
 }
