@@ -74,9 +74,9 @@ protected:
     template <class Visit>
     void clickAllOver(float left, float bottom, Visit visit)
     {
-        for (float y = 10; y < bottom; y += 5)
+        for (int row = 2; 5 * static_cast<float>(row) < bottom; ++row)
             for (int column = 0; column < 20; ++column) {
-                const float x = left + 12 * static_cast<float>(column);
+                const float x = left + 12 * static_cast<float>(column), y = 5 * static_cast<float>(row);
                 click(x, y);
                 visit(x, y);
             }
