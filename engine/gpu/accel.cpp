@@ -116,6 +116,19 @@ void Accel::swap(Accel& other) noexcept
     std::swap(address_, other.address_);
 }
 
+VkAccelerationStructureInstanceKHR instanceOf(const mat4& worldFromLocal, const Accel& accel, uint32_t mask)
+{
+    VkAccelerationStructureInstanceKHR instance{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            instance.transform.matrix[row][column] = worldFromLocal[column][row];
+    instance.instanceCustomIndex = mask & 0xffffffu;
+    instance.mask = mask & 0xffu;
+    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+    instance.accelerationStructureReference = accel.address();
+    return instance;
+}
+
 void recordBuild(VkCommandBuffer commands, const Accel& target, const TriangleInput& input, bool isDynamic, VkDeviceAddress scratch)
 {
     const auto geometry = triangleGeometry(input);

@@ -1,6 +1,7 @@
 // Acceleration structures for ray queries: how large they get, and recording their builds.
 #pragma once
 
+#include "base/math.h"
 #include "gpu/buffer.h"
 
 namespace antumbra::gpu {
@@ -60,6 +61,9 @@ private:
     VkAccelerationStructureKHR accel_ = VK_NULL_HANDLE;
     VkDeviceAddress address_ = 0;
 };
+
+/// Of both sides of triangles. Carries the mask, of at most 8 bits, as custom index too.
+VkAccelerationStructureInstanceKHR instanceOf(const mat4& worldFromLocal, const Accel& accel, uint32_t mask);
 
 /// The builds read and write device memory only; the caller orders them with barriers (Use::AccelBuildInput, Use::AccelWrite).
 void recordBuild(VkCommandBuffer commands, const Accel& target, const TriangleInput& input, bool isDynamic, VkDeviceAddress scratch);

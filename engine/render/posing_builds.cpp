@@ -11,19 +11,6 @@ namespace {
 
 using graph::Use;
 
-VkAccelerationStructureInstanceKHR instanceOf(const mat4& world, const gpu::Accel& accel, uint32_t mask)
-{
-    VkAccelerationStructureInstanceKHR instance{};
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            instance.transform.matrix[row][column] = world[column][row];
-    instance.instanceCustomIndex = mask & 0xffffffu;
-    instance.mask = mask & 0xffu;
-    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-    instance.accelerationStructureReference = accel.address();
-    return instance;
-}
-
 shader::BvhPlacement placementOf(const mat4& world, const DeviceModel& model, const gpu::Buffer& nodes, const gpu::Buffer& positions,
                                  uint32_t mask)
 {
@@ -76,12 +63,12 @@ void PosingSystem::recordAccelScene(graph::Recorder& recorder, const FrameView& 
     FrameArray<VkAccelerationStructureInstanceKHR> instances(*device_, view);
     for (const StaticDraw& draw : view.statics)
         if (const gpu::Accel& accel = scene.rest(draw.model).accel)
-            instances.append(instanceOf(draw.world, accel, shader::kMaskStatic));
+            instances.append(gpu::instanceOf(draw.world, accel, shader::kMaskStatic));
     for (const CharacterDraw& draw : view.characters)
         if (const gpu::Accel& accel = scene.character(draw.slot).accel)
-            instances.append(instanceOf(draw.world, accel, shader::kMaskDynamic));
+            instances.append(gpu::instanceOf(draw.world, accel, shader::kMaskDynamic));
     if (const gpu::Accel& accel = fieldBoxes_.accel())
-        instances.append(instanceOf(mat4(1), accel, shader::kMaskFields));
+        instances.append(gpu::instanceOf(mat4(1), accel, shader::kMaskFields));
     gpu::recordBuild(recorder.commands(), scene.scene(), instances.address(), instances.count(), scene.sceneScratch().address());
 }
 

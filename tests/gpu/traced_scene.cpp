@@ -22,19 +22,6 @@ gpu::Accel built(gpu::Device& device, VkAccelerationStructureTypeKHR type, const
     return accel;
 }
 
-VkAccelerationStructureInstanceKHR instanceOf(const mat4& worldFromLocal, const gpu::Accel& accel, uint32_t mask)
-{
-    VkAccelerationStructureInstanceKHR instance{};
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            instance.transform.matrix[row][column] = worldFromLocal[column][row];
-    instance.instanceCustomIndex = mask & 0xffffffu;
-    instance.mask = mask & 0xffu;
-    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-    instance.accelerationStructureReference = accel.address();
-    return instance;
-}
-
 } // namespace
 
 TracedScene::TracedScene(gpu::Device& device, render::RayBackend backend, std::vector<PlacedMesh>& meshes)
@@ -60,7 +47,7 @@ void TracedScene::buildAccels(gpu::Device& device, const std::vector<PlacedMesh>
                                        [&](VkCommandBuffer commands, const gpu::Accel& target, VkDeviceAddress scratch) {
                                            gpu::recordBuild(commands, target, input, false, scratch);
                                        }));
-        instances.push_back(instanceOf(placed.worldFromLocal, accel, placed.mask));
+        instances.push_back(gpu::instanceOf(placed.worldFromLocal, accel, placed.mask));
     }
     buildScene(device, instances);
 }
@@ -73,7 +60,7 @@ TracedScene::TracedScene(gpu::Device& device, const std::vector<VkAabbPositionsK
                                    [&](VkCommandBuffer commands, const gpu::Accel& target, VkDeviceAddress scratch) {
                                        gpu::recordBuild(commands, target, input, scratch);
                                    }));
-    buildScene(device, {instanceOf(mat4{1}, accel, shader::kMaskFields)});
+    buildScene(device, {gpu::instanceOf(mat4{1}, accel, shader::kMaskFields)});
 }
 
 void TracedScene::buildScene(gpu::Device& device, const std::vector<VkAccelerationStructureInstanceKHR>& instances)

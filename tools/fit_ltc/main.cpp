@@ -38,7 +38,7 @@ std::optional<bake::LtcTables> fitAndSave(const Options& options)
 Path amplitudeBeside(const Path& matrix)
 {
     for (const char* name : {"ltc_2.exr", bake::kLtcAmplitudeFile})
-        if (const Path beside = matrix.parent_path() / name; std::filesystem::exists(beside))
+        if (Path beside = matrix.parent_path() / name; std::filesystem::exists(beside))
             return beside;
     return {};
 }
