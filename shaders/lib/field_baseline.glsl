@@ -1,6 +1,6 @@
-// Earlier ways to a soft shadow from one march through a signed distance field, for comparison: Quilez 2010 with signed distances, Aaltonen's
-// improvement (2018), and the minimal tangent cone of Ban, Balint, Valasek 2020 (Algorithm 2, as corrected in methods/sdf-cones.md). All
-// take the occluder for one straight edge. Needs lib/field_cone.glsl.
+// Ways to a soft shadow from one march through a signed distance field, for comparison: Quilez 2010 with signed distances and Aaltonen's
+// improvement (2018), which take the occluder for one straight edge; and the minimal tangent cone of Ban, Balint, Valasek 2020 (Algorithm 2,
+// as corrected in methods/sdf-cones.md), which looks around where it is narrowest. Needs lib/field_cone.glsl.
 #ifndef LIB_FIELD_BASELINE_GLSL
 #define LIB_FIELD_BASELINE_GLSL
 
@@ -55,19 +55,23 @@ float coneVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, floa
     FieldReceiver at = fieldReceiver(fields, p, centre, radius);
     if (at.settled >= 0.0)
         return at.settled;
-    FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, min(at.distance, 0.5 * radius));
+    FieldCone cone = coneToSphere(p, at.axis, at.distanceLight, radius, 0.0);
+    Narrowest where = Narrowest(p, at.distance, radiusAt(cone, 0.0), tangentFrame(at.axis));
     float least = 1.0, share = 1.0, t = 0.0, f = at.distance, step = 0.0, end = at.distanceLight - radius;
     for (uint i = 0u; i < kFieldMarchSteps && t < end && least > -1.0; ++i) {
         f = i > 0u ? fieldDistance(fields, p + at.axis * t, f + step) : f;
         float whole = radiusAt(cone, t);
-        if (f - share * whole < tolerance * whole) {
-            least = min(least, f / whole);
-            share = min(share, f / whole - tolerance);
+        if (f < least * whole) {
+            least = f / whole;
+            where.point = p + at.axis * t;
+            where.distance = f;
+            where.radius = whole;
         }
+        share = min(share, max(f / whole - tolerance, -1.0));
         step = max((f - share * whole) / (1.0 + share * cone.slope), 1.0e-5 + 1.0e-4 * t);
         t += step;
     }
-    return smoothShare(least);
+    return least >= 1.0 ? 1.0 : least <= -1.0 ? 0.0 : seenPastRectangle(fields, where, least);
 }
 
 #endif

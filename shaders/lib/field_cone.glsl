@@ -1,5 +1,6 @@
 // How much of a sphere is seen past a signed distance field, by cones (Ban, Balint, Valasek 2020, as corrected in methods/sdf-cones.md).
-// The approximation: what a cone meets at its narrowest is taken for one straight edge. Needs lib/field.glsl.
+// The approximation: what a cone meets at its narrowest is taken for a rectangle, in a part of the light for one straight edge and what is
+// seen past those beyond it. Needs lib/field.glsl.
 #ifndef LIB_FIELD_CONE_GLSL
 #define LIB_FIELD_CONE_GLSL
 
@@ -10,25 +11,11 @@ const uint kFieldMostCones = 16u;
 
 // Share of a cap that a plane through its apex leaves clear: `m` is the sine of the plane's angle to the axis as a share of `sine`, that of
 // the cap's half angle; 1 is clear. A disc's share and the next term of its series: off by 0.002 at most while `sine` is under 0.5.
-float flatCapCoverage(float m, float sine)
+float capCoverage(float m, float sine)
 {
     m = clamp(m, -1.0, 1.0);
     float side = sqrt(max((1.0 - m) * (1.0 + m), 0.0));
     return clamp(0.5 + (m * side + atan(m, side)) / kPi - m * side * side * side * sine * sine / kTau, 0.0, 1.0);
-}
-
-// The same of any cap. Where it is nearly flat the formula is a difference of nearly equal angles.
-float capCoverage(float m, float sine)
-{
-    if (sine < 0.2)
-        return flatCapCoverage(m, sine);
-    m = clamp(m, -1.0, 1.0);
-    float side = sqrt(max((1.0 - m) * (1.0 + m), 0.0)), cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
-    float b = m * sine, cosineB = sqrt(max((1.0 - b) * (1.0 + b), 0.0));
-    float x = clamp(-b * cosine / max(cosineB * sine, 1.0e-20), -1.0, 1.0);
-    float angle = atan(sqrt(max((1.0 - x) * (1.0 + x), 0.0)), x);
-    float clear = (kPi - atan(side, m) - cosine * angle) / (kPi * max(1.0 - cosine, 1.0e-6));
-    return clamp(clear, 0.0, 1.0);
 }
 
 // What every method settles before it divides: inside a solid all is dark, inside the light all is lit.
@@ -143,7 +130,41 @@ float seenPastNextEdges(FieldsBlock fields, Narrowest where, vec3 rise, float si
     vec3 aside = rise * (where.radius * inversesqrt(max(dot(rise, rise), 1.0e-20)));
     float most = where.distance + where.radius;
     vec2 there = vec2(fieldDistance(fields, where.point - aside, most), fieldDistance(fields, where.point + aside, most)) / where.radius;
-    return flatCapCoverage(there.x - 1.0, sine) - flatCapCoverage(-1.0 - there.y, sine);
+    return capCoverage(there.x - 1.0, sine) - capCoverage(-1.0 - there.y, sine);
+}
+
+// Area that the unit disc shares with the rectangle between its centre and `corner`: negative where one of the corner's coordinates is.
+float discToCorner(vec2 corner)
+{
+    vec2 to = min(abs(corner), 1.0), rim = sqrt((1.0 - to) * (1.0 + to)); // how far from the centre each side leaves the disc
+    float area = to.x * min(to.y, rim.x);
+    if (to.y > rim.x)
+        area += 0.5 * (to.y * rim.y - to.x * rim.x + atan(to.y, rim.y) - atan(rim.x, to.x));
+    return sign(corner.x) * sign(corner.y) * area;
+}
+
+// Share of the unit disc that such a rectangle covers; none if it ends before it begins.
+float rectangleShare(vec2 low, vec2 high)
+{
+    high = max(low, high);
+    float along = discToCorner(high) - discToCorner(vec2(low.x, high.y));
+    return clamp((along - discToCorner(vec2(high.x, low.y)) + discToCorner(low)) / kPi, 0.0, 1.0);
+}
+
+// What is seen in a cone past what it meets where it is narrowest, taken for a rectangle. Its near edge is as far off the axis as the distance
+// says, in the way in which that rises; the other three, and on a ridge, where nothing rises, the near one too, are where looks a radius away
+// find them. `least` is the distance there as a share of the cone's radius.
+float seenPastRectangle(FieldsBlock fields, Narrowest where, float least)
+{
+    const float kInset = 0.5; // of the radius: the ends are looked for from inside of the solid
+    FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, least > 0.0);
+    float certainty = min(length(slope.across), 1.0), most = where.distance + 2.5 * where.radius;
+    vec3 rise = (certainty > 0.0 ? normalize(slope.across) : where.frame[0]) * where.radius, aside = cross(where.frame[2], rise);
+    vec3 within = where.point - rise * (certainty * max(least + kInset, 0.0));
+    vec4 apart = vec4(fieldDistance(fields, where.point - rise, most), fieldDistance(fields, within - aside, most),
+                      fieldDistance(fields, where.point + rise, most), fieldDistance(fields, within + aside, most));
+    vec4 edge = 1.0 - max(apart / where.radius, 0.0);
+    return 1.0 - rectangleShare(-edge.xy, vec2(mix(edge.z, -least, certainty), edge.w));
 }
 
 // How far a solid that blocks the k-th cone reaches at most into it, as a share of its radius: the nearest cone that is clear says so.
@@ -167,7 +188,7 @@ float subConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
     const float kNearlyNone = -0.95; // what is left of a cone that is blocked farther makes no difference
     float least = subConeLeast[k];
     bool isClear = least >= 0.0;
-    float seen = least > kNearlyNone ? flatCapCoverage(least, sine) : 0.0;
+    float seen = least > kNearlyNone ? capCoverage(least, sine) : 0.0;
     if (least > kNearlyAll || least <= kNearlyNone)
         return seen;
     Narrowest where = narrowest(cones, k);
@@ -177,8 +198,8 @@ float subConeSeen(FieldsBlock fields, SubCones cones, uint k, float sine)
         return clamp(seen + beyond, 0.0, 1.0);
     float certainty = edgeCertainty(slope), rod = (1.0 - certainty) * clamp((slope.greatest - 0.8) / 0.2, 0.0, 1.0);
     float farthest = farthestEdge(cones, k);
-    float pastEdge = flatCapCoverage(-mix(farthest, min(-least / slope.greatest, farthest), certainty), sine);
-    float besideRod = seen + 1.0 - flatCapCoverage(-least, sine);
+    float pastEdge = capCoverage(-mix(farthest, min(-least / slope.greatest, farthest), certainty), sine);
+    float besideRod = seen + 1.0 - capCoverage(-least, sine);
     return max(clamp(pastEdge + certainty * beyond, 0.0, 1.0), rod * besideRod);
 }
 
@@ -201,8 +222,10 @@ float subConeVisibility(FieldsBlock fields, vec3 p, vec3 centre, float radius, u
     mat3 frame = tangentFrame(at.axis);
     FieldCone wide = coneToSphere(p, at.axis, at.distanceLight, radius, 0.0);
     FieldMarch whole = marchCone(fields, wide, vec2(0.0, end), at.distance, farthestDistance(fields, p), kWideTolerance);
-    if (whole.least >= 1.0 || whole.least <= -1.0 || count == 1u)
-        return capCoverage(whole.least, sine);
+    if (whole.least >= 1.0 || whole.least <= -1.0)
+        return whole.least > 0.0 ? 1.0 : 0.0;
+    if (count == 1u)
+        return seenPastRectangle(fields, Narrowest(p + at.axis * whole.at, whole.distance, radiusAt(wide, whole.at), frame), whole.least);
     SubCones cones = SubCones(mat3(frame[0] * tangent, frame[1] * tangent, at.axis), wide, at.distanceLight, radius, count);
     for (uint k = 0u; k < count; ++k) {
         FieldMarch part = marchSubCone(fields, cones, k, whole, end, at.distance);

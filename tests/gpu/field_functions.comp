@@ -17,6 +17,12 @@ struct In { float m; float sine; };
 struct Out { float share; };
 Out evaluate(In x) { return Out(capCoverage(x.m, x.sine)); }
 
+#elif defined(RECTANGLE_SHARE)
+
+struct In { vec2 low; vec2 high; };
+struct Out { float share; };
+Out evaluate(In x) { return Out(rectangleShare(x.low, x.high)); }
+
 #elif defined(CELLS) || defined(EDGE_SAMPLES)
 
 // A parallelogram that faces the point.

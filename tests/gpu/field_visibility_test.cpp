@@ -183,7 +183,7 @@ double discUpTo(double x)
 TEST_F(FieldVisibility, ThinRodsHideABand)
 {
     constexpr int kSteps = 81;
-    for (const auto& [cones, bound] : {std::pair(4u, 0.03), std::pair(7u, 0.02), std::pair(16u, 0.01)})
+    for (const auto& [cones, bound] : {std::pair(1u, 0.05), std::pair(4u, 0.03), std::pair(7u, 0.02), std::pair(16u, 0.01)})
         for (const float radius : {0.01f, 0.03f, 0.06f}) {
             std::vector<FieldSteps> fields;
             std::vector<FieldAsk> asks;
