@@ -22,9 +22,9 @@ bool isFree(const FieldStepBlock& step)
 } // namespace
 
 /// Until no half is larger than a group; halves are whole groups but for the last.
-void FieldOrder::halve(std::span<uint32_t> indices)
+void FieldOrder::halve(std::span<uint32_t> indices, uint32_t inGroup)
 {
-    if (indices.size() <= shader::kFieldGroupSteps) {
+    if (indices.size() <= inGroup) {
         // Groups of the same shapes have the same structure then.
         std::ranges::sort(indices, {}, [&](uint32_t index) { return std::pair(kinds_[index].shape, index); });
         return;
@@ -37,10 +37,10 @@ void FieldOrder::halve(std::span<uint32_t> indices)
     std::ranges::sort(indices, [&](uint32_t a, uint32_t b) {
         return centres_[a][axis] != centres_[b][axis] ? centres_[a][axis] < centres_[b][axis] : a < b;
     });
-    const size_t groups = (indices.size() + shader::kFieldGroupSteps - 1) / shader::kFieldGroupSteps;
-    const size_t first = (groups + 1) / 2 * shader::kFieldGroupSteps;
-    halve(indices.first(first));
-    halve(indices.subspan(first));
+    const size_t groups = (indices.size() + inGroup - 1) / inGroup;
+    const size_t first = (groups + 1) / 2 * inGroup;
+    halve(indices.first(first), inGroup);
+    halve(indices.subspan(first), inGroup);
 }
 
 void FieldOrder::find(std::span<const FieldStepBlock> steps)
@@ -54,7 +54,7 @@ void FieldOrder::find(std::span<const FieldStepBlock> steps)
         size_t end = first;
         while (end < steps.size() && isFree(steps[end]))
             ++end;
-        halve(std::span(order_).subspan(first, end - first));
+        halve(std::span(order_).subspan(first, end - first), mostInGroup(steps.size()));
         first = std::max(end, first + 1);
     }
 }

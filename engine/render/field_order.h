@@ -24,7 +24,7 @@ private:
     };
 
     void find(std::span<const shader::FieldStepBlock> steps);
-    void halve(std::span<uint32_t> indices);
+    void halve(std::span<uint32_t> indices, uint32_t inGroup);
 
     std::vector<uint32_t> order_;
     std::vector<Kind> kinds_, kindsNow_; // of steps, as the order was found for them

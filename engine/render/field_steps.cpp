@@ -2,6 +2,7 @@
 
 #include "base/bounds.h"
 #include "base/check.h"
+#include "render/field_structure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -289,17 +290,19 @@ FieldBound boundOf(const FieldStepBlock& step)
     return {-(worldFromLocal * origin), std::min(localRadius(step) * stretchOf(worldFromLocal).most, kFieldUnbounded)};
 }
 
+uint32_t mostInGroup(size_t count) { return count <= kMostWrittenSteps ? 2 : 4; }
+
 void writeGroups(std::span<const FieldStepBlock> steps, std::vector<FieldGroupBlock>& groups)
 {
     groups.clear();
+    const uint32_t most = mostInGroup(steps.size());
     const auto begins = [&](uint32_t i) { return (steps[i].flags & shader::kFieldBegins) != 0; };
     uint32_t field = 0;
     for (uint32_t i = 0; i < steps.size(); ++i) {
         field += i > 0 && begins(i) ? 1 : 0;
         // What a field begins with keeps its place and stands alone, so that groups are those that FieldOrder puts together.
         const bool isOpen = !groups.empty() && !isEverywhere(steps[i]) && !isEverywhere(steps[i - 1]) && !begins(i) && !begins(i - 1) &&
-                            isUnion(steps[i]) == isUnion(steps[i - 1]) &&
-                            groups.back().endStep - groups.back().firstStep < shader::kFieldGroupSteps;
+                            isUnion(steps[i]) == isUnion(steps[i - 1]) && groups.back().endStep - groups.back().firstStep < most;
         if (!isOpen)
             groups.push_back({.firstStep = i, .endStep = i, .field = field});
         groups.back().endStep = i + 1;

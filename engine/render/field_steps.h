@@ -28,6 +28,10 @@ struct FieldBound
 inline constexpr float kFieldUnbounded = 1e9f;
 FieldBound boundOf(const shader::FieldStepBlock& step);
 
+/// How many of `count` steps are in one group at most: two where they are written out (render/field_structure.h), as groups that nobody
+/// looks at are passed by; more where they are walked through, as each group's bounds are looked at first.
+uint32_t mostInGroup(size_t count);
+
 /// Divides steps into groups, which depends on nothing but their shapes, operations and flags, and bounds them. Keeps the memory of
 /// `groups`.
 void writeGroups(std::span<const shader::FieldStepBlock> steps, std::vector<shader::FieldGroupBlock>& groups);

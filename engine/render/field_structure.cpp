@@ -32,15 +32,19 @@ std::string_view functionsOf(uint32_t operation)
 
 } // namespace
 
-void writeStructure(std::span<const shader::FieldStepBlock> steps, std::string& text)
+void writeStructure(std::span<const shader::FieldStepBlock> steps, std::span<const shader::FieldGroupBlock> groups, std::string& text)
 {
     text.clear();
-    if (steps.size() > kMostWrittenSteps)
+    if (groups.empty() || groups.back().endStep - groups.front().firstStep > kMostWrittenSteps)
         return;
-    for (size_t i = 0; i < steps.size(); ++i) {
-        if ((steps[i].flags & shader::kFieldBegins) != 0)
+    for (size_t g = 0; g < groups.size(); ++g) {
+        if ((steps[groups[g].firstStep].flags & shader::kFieldBegins) != 0)
             text += "FIELD_BEGINS ";
-        fmt::format_to(std::back_inserter(text), "FIELD_STEP({}, {}, {}) ", i, functionsOf(steps[i].operation), distanceOf(steps[i].shape));
+        fmt::format_to(std::back_inserter(text), "FIELD_GROUP({}) ", g);
+        for (uint32_t i = groups[g].firstStep; i < groups[g].endStep; ++i)
+            fmt::format_to(std::back_inserter(text), "FIELD_STEP({}, {}, {}) ", i - groups.front().firstStep,
+                           functionsOf(steps[i].operation), distanceOf(steps[i].shape));
+        text += "FIELD_ENDS ";
     }
 }
 

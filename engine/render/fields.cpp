@@ -76,8 +76,8 @@ void Fields::order(const FrameView& view)
 
 void Fields::writeStructures(Ordered& ordered)
 {
-    writeStructure(std::span(ordered.steps).first(ordered.surfaces.size()), ordered.structure);
-    writeStructure(ordered.steps, ordered.shadowingStructure);
+    writeStructure(ordered.steps, std::span(ordered.groups).first(ordered.seenGroups), ordered.structure);
+    writeStructure(ordered.steps, ordered.groups, ordered.shadowingStructure);
 }
 
 void Fields::divide(Ordered& ordered)
@@ -88,8 +88,8 @@ void Fields::divide(Ordered& ordered)
     for (size_t i = 0; i < ordered.partCount; ++i) {
         Part& part = ordered.parts[i];
         part.groups = partGroups_[i];
-        const uint32_t first = ordered.groups[part.groups.firstGroup].firstStep, end = ordered.groups[part.groups.endGroup - 1].endStep;
-        writeStructure(std::span(ordered.steps).subspan(first, end - first), part.structure);
+        const auto [first, end] = part.groups;
+        writeStructure(ordered.steps, std::span(ordered.groups).subspan(first, end - first), part.structure);
     }
 }
 

@@ -92,12 +92,16 @@ FieldStepBlock fieldStep(FieldsBlock fields, uint i) { return FieldSteps(fields.
 // holdSteps comes first of all: what a CPU device reads in a loop it gathers each time round.
 #ifdef HOLDS_STEPS
 #define FIELD_BEGINS
+#define FIELD_GROUP(g)
+#define FIELD_ENDS
 #define FIELD_STEP(i, operation, share, distance) + 1
 FieldStepBlock heldSteps[0 FIELD_STRUCTURE];
 #undef FIELD_STEP
 #define FIELD_STEP(i, operation, share, distance) heldSteps[i] = fieldStep(fields, i);
 void holdSteps(FieldsBlock fields) { FIELD_STRUCTURE }
 #undef FIELD_STEP
+#undef FIELD_ENDS
+#undef FIELD_GROUP
 #undef FIELD_BEGINS
 FieldStepBlock writtenStep(FieldsBlock fields, uint i) { return heldSteps[i]; }
 #else
@@ -114,6 +118,11 @@ const uint kGroupsInSet = 64u;
 uvec2 setOfGroup(uint g) { return (g & 32u) == 0u ? uvec2(1u << (g & 31u), 0u) : uvec2(0u, 1u << (g & 31u)); }
 
 bool isLookedAt(FieldsBlock fields, uint g) { return (setOfGroup(g) & ~fields.skipped) != uvec2(0u); }
+
+#ifdef FIELD_STRUCTURE // groups that none of the threads that go together looks at are passed by
+#define FIELD_GROUP(g) if (isLookedAt(fields, g)) {
+#define FIELD_ENDS }
+#endif
 
 // From the g-th on, the first that is looked at; or one that is not, with none before it.
 uint nextLookedAt(FieldsBlock fields, uint g)
@@ -172,7 +181,7 @@ FieldGroupBlock takeGroup(FieldsBlock fields, uint first, inout uvec2 set)
 
 // Of all fields together, where that is no more than `most`, else anything that is more: it changes no faster than one goes, so who knows it
 // nearby need not ask what is farther. The walk goes step by step through the groups that matter, without a loop for each: CPU devices work
-// off a loop's body for nobody too. Written out, all steps are worked off, which is faster than to pass by any.
+// off a loop's body for nobody too. Written out, all steps that are looked at are worked off, which is faster than to ask whether they matter.
 float fieldDistance(FieldsBlock fields, vec3 p, float most)
 {
     ++fieldEvaluations;

@@ -29,8 +29,6 @@ struct FieldStepBlock
     uint flags;
 };
 
-const uint kFieldGroupSteps = 4u; // at most
-
 // Steps in a row of one field that matter only near them: the distance of each is at least slope * |p - centre| - reach, and, outside of a box,
 // slope * its distance. None of them changes a distance that is less than that, inside a solid as outside, but for how far it melts.
 struct FieldGroupBlock

@@ -160,7 +160,7 @@ TEST(FieldSteps, GroupsHoldEachStepOnceInOrder)
         uint32_t next = 0;
         for (const shader::FieldGroupBlock& group : groups) {
             EXPECT_EQ(group.firstStep, next);
-            EXPECT_LE(group.endStep - group.firstStep, shader::kFieldGroupSteps);
+            EXPECT_LE(group.endStep - group.firstStep, render::mostInGroup(field.size()));
             EXPECT_GT(group.endStep, group.firstStep);
             for (uint32_t step = group.firstStep + 1; step < group.endStep; ++step)
                 EXPECT_EQ(field[step].flags & shader::kFieldBegins, 0u);
@@ -251,20 +251,26 @@ TEST(FieldSteps, TheStructureIsThatOfShapesAndOperations)
     const SDFPrimitive box{.shape = SDFShape::Box, .halfExtent = {1, 1, 1}};
     SDFPrimitive ball{.shape = SDFShape::Sphere, .radius = 1, .operation = SDFOperation::Subtract};
     const auto structure = [&] {
+        const FieldSteps steps = fieldOf({box, ball});
+        std::vector<shader::FieldGroupBlock> groups;
+        render::writeGroups(steps, groups);
         std::string text;
-        render::writeStructure(fieldOf({box, ball}), text);
+        render::writeStructure(steps, groups, text);
         return text;
     };
     const std::string before = structure();
-    EXPECT_EQ(before,
-              "FIELD_BEGINS FIELD_STEP(0, unionOf, unionShare, boxStep) FIELD_STEP(1, differenceOf, differenceShare, segmentStep) ");
+    EXPECT_EQ(before, "FIELD_BEGINS FIELD_GROUP(0) FIELD_STEP(0, unionOf, unionShare, boxStep) FIELD_ENDS "
+                      "FIELD_GROUP(1) FIELD_STEP(1, differenceOf, differenceShare, segmentStep) FIELD_ENDS ");
     ball.radius = 2;
     ball.centre = {1, 2, 3};
     EXPECT_EQ(structure(), before);
     ball.operation = SDFOperation::SmoothUnion;
     EXPECT_NE(structure(), before);
     std::string none = "left";
-    render::writeStructure(fieldOf(std::vector(render::kMostWrittenSteps + 1, box)), none);
+    const FieldSteps many = fieldOf(std::vector(render::kMostWrittenSteps + 1, box));
+    std::vector<shader::FieldGroupBlock> groups;
+    render::writeGroups(many, groups);
+    render::writeStructure(many, groups, none);
     EXPECT_TRUE(none.empty());
 }
 
