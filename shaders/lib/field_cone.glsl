@@ -157,13 +157,16 @@ float rectangleShare(vec2 low, vec2 high)
 float seenPastRectangle(FieldsBlock fields, Narrowest where, float least)
 {
     const float kInset = 0.5; // of the radius: the ends are looked for from inside of the solid
-    FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, least > 0.0);
+    const float kThin = 0.3; // of the radius, by half
+    FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, false);
     float certainty = min(length(slope.across), 1.0), most = where.distance + 2.5 * where.radius;
     vec3 rise = (certainty > 0.0 ? normalize(slope.across) : where.frame[0]) * where.radius, aside = cross(where.frame[2], rise);
     vec3 within = where.point - rise * (certainty * max(least + kInset, 0.0));
     vec4 apart = vec4(fieldDistance(fields, where.point - rise, most), fieldDistance(fields, within - aside, most),
                       fieldDistance(fields, where.point + rise, most), fieldDistance(fields, within + aside, most));
-    vec4 edge = 1.0 - max(apart / where.radius, 0.0);
+    // A thin sheet aslant, unlike a rod, rises slowly off the axis, and goes on before and behind the looks.
+    float sheet = (1.0 - certainty) * clamp((0.8 - slope.greatest) / 0.2, 0.0, 1.0) * clamp(1.0 - abs(least) / kThin, 0.0, 1.0);
+    vec4 edge = 1.0 - (1.0 - sheet) * max(apart / where.radius, 0.0);
     return 1.0 - rectangleShare(-edge.xy, vec2(mix(edge.z, -least, certainty), edge.w));
 }
 
