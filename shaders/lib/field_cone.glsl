@@ -143,7 +143,7 @@ float discToCorner(vec2 corner)
     return sign(corner.x) * sign(corner.y) * area;
 }
 
-// Share of the unit disc that such a rectangle covers; none if it ends before it begins.
+// Share of the unit disc that the rectangle from `low` to `high` covers; none if it ends before it begins.
 float rectangleShare(vec2 low, vec2 high)
 {
     high = max(low, high);
@@ -160,7 +160,7 @@ float seenPastRectangle(FieldsBlock fields, Narrowest where, float least)
     const float kThin = 0.3; // of the radius, by half
     FieldSlope slope = slopeAcross(fields, where.point, where.frame, where.distance, kSlopeNudge * where.radius, false);
     float certainty = min(length(slope.across), 1.0), most = where.distance + 2.5 * where.radius;
-    vec3 rise = (certainty > 0.0 ? normalize(slope.across) : where.frame[0]) * where.radius, aside = cross(where.frame[2], rise);
+    vec3 rise = (certainty > 1.0e-6 ? normalize(slope.across) : where.frame[0]) * where.radius, aside = cross(where.frame[2], rise);
     vec3 within = where.point - rise * (certainty * max(least + kInset, 0.0));
     vec4 apart = vec4(fieldDistance(fields, where.point - rise, most), fieldDistance(fields, within - aside, most),
                       fieldDistance(fields, where.point + rise, most), fieldDistance(fields, within + aside, most));
